@@ -1,0 +1,60 @@
+/* Oracles: exact solutions. (X, t) -> fields, with units, jumps and a self-check. Knows no other room. */
+#ifndef ORACLES_ORACLE_H
+#define ORACLES_ORACLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { ORACLE_WHY = 512, ORACLE_PARAMETERS = 16 };
+
+struct oracle_parameter {
+    const char *name; /* as the scene spells it: "U0", "material.nu" */
+    const char *unit; /* "m", "Pa", "-" */
+    const char *help;
+    double lower, upper; /* admissible interval, ends included; infinite where open */
+};
+
+/* The exact state at one place and time; tensors row by row, always 3D. */
+struct oracle_state {
+    double u[3]; /* displacement [m] */
+    double v[3]; /* velocity [m/s] */
+    double p[3]; /* linear momentum per unit reference volume [kg/(m^2 s)] */
+    double F[9]; /* deformation gradient */
+    double P[9]; /* first Piola-Kirchhoff stress [Pa] */
+};
+
+enum oracle_smoothness { ORACLE_SMOOTH, ORACLE_KINKS, ORACLE_JUMPS };
+
+/* Result of a self-check: one line per law, each a dimensionless residual and the bound it must stay under. */
+struct oracle_check {
+    const char *law; /* "PDE", "initial displacement", "traction on X1", "second evaluation", ... */
+    double residual, bound;
+};
+
+struct oracle;
+
+struct oracle_kind {
+    const char *name;    /* "swinging-cube" */
+    const char *summary; /* one line */
+    const char *source;  /* paper file and equation */
+    int dim;
+    enum oracle_smoothness smoothness;
+    const struct oracle_parameter *parameter; /* ends with a NULL name */
+    /* Values in the order of `parameter`, already within their intervals. */
+    bool (*create)(const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
+    void (*destroy)(struct oracle *oracle);
+    void (*state)(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state);
+    /* Total energies of the body [J]. */
+    void (*energy)(const struct oracle *oracle, double t, double *kinetic, double *strain);
+    /* Fills up to `size` lines; returns how many there are. Every line must be able to fail. */
+    size_t (*check)(const struct oracle *oracle, struct oracle_check *line, size_t size);
+};
+
+/* All oracles, NULL-terminated. */
+const struct oracle_kind *const *oracle_kinds(void);
+/* NULL if there is none of that name. */
+const struct oracle_kind *oracle_find(const char *name);
+/* Checks that every value is finite and admissible, then creates. The kind's destroy frees. */
+bool oracle_create(const struct oracle_kind *kind, const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
+
+#endif

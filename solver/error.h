@@ -1,0 +1,24 @@
+/* Errors are values: every call of the solver that can fail returns false and says why in a solver_error. */
+#ifndef SOLVER_ERROR_H
+#define SOLVER_ERROR_H
+
+#include <stdbool.h>
+
+enum solver_code {
+    SOLVER_OK = 0,
+    SOLVER_BAD_INPUT, /* scene, command line or file is wrong: the user can mend it */
+    SOLVER_NO_MEMORY, /* an allocation failed; the text says how much was asked for */
+    SOLVER_IO,        /* a file could not be read or written */
+    SOLVER_BROKE_DOWN /* the run itself failed: NaN, inverted particle, no convergence */
+};
+
+struct solver_error {
+    enum solver_code code;
+    char text[1024]; /* what, where, what was expected; no trailing newline */
+};
+
+/* Fills *error and returns false, so that a caller can write `return solver_fail(...)`. */
+bool solver_fail(struct solver_error *error, enum solver_code code, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+#endif

@@ -1,0 +1,45 @@
+/* Records: HDF5 files that ParaView opens without a plug-in (VTKHDF 1.0, UnstructuredGrid), with an XDMF file
+ * beside for older readers. Whole or absent: written beside, flushed, renamed. */
+#ifndef SOLVER_RECORD_H
+#define SOLVER_RECORD_H
+
+#include "solver/run.h"
+
+/* One field of a record: count rows of `width` numbers. */
+struct solver_record_field {
+    char name[SOLVER_NAME]; /* "displacement", "velocity", "pressure", "von_mises", "F", "J", "P", "tags", ... */
+    char unit[32];          /* "m", "Pa", "-" */
+    int width;              /* 1; 3 for vectors and 9 for tensors, zero-padded below 3D (F and H: 1 on the diagonal) */
+    double *value;          /* [count][width] */
+};
+
+/* A record in memory, as read from a file. */
+struct solver_record {
+    int dim;
+    size_t count;
+    double time;
+    double *X;                         /* [count][3] reference position [m] */
+    size_t cell_count;
+    int cell_width;                    /* 2, 4, 8: line, quad, hexahedron */
+    uint32_t *cell;                    /* [cell_count][cell_width] */
+    size_t field_count;
+    struct solver_record_field *field;
+    size_t history_count;              /* rows of the time history */
+    size_t history_columns;
+    char (*history_name)[SOLVER_NAME]; /* [history_columns] "time", "kinetic_energy", "probe_corner_u_x", ... */
+    char (*history_unit)[32];          /* [history_columns] */
+    double *history;                   /* [history_count][history_columns] */
+    char *scene_name, *scene_text, *overrides, *command, *version; /* attributes, "" if absent */
+};
+
+/* Writes PATH (an .h5 or .vtkhdf name) and PATH with .xdmf beside it. */
+bool solver_record_write(const char *path, const struct solver_scene *scene, const struct solver_output *output,
+                         const struct solver_history *history, const char *command, const char *version,
+                         struct solver_error *error);
+/* Reads any record this program wrote; refuses foreign, damaged or truncated files with a clear error. */
+bool solver_record_read(const char *path, struct solver_record **record, struct solver_error *error);
+void solver_record_free(struct solver_record *record);
+/* NULL if there is no field of that name. */
+const struct solver_record_field *solver_record_find(const struct solver_record *record, const char *name);
+
+#endif

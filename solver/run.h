@@ -1,0 +1,80 @@
+/* A run: scene -> cloud -> stencil -> scheme x integrator, advanced in time. */
+#ifndef SOLVER_RUN_H
+#define SOLVER_RUN_H
+
+#include "solver/cloud.h"
+#include "solver/error.h"
+#include "solver/scene.h"
+
+#include <stddef.h>
+
+struct solver_run;
+
+/* What the body is doing now. Arrays belong to the run and hold until its next call. [count] particles; tensors
+ * row by row; F, H, P are the in-plane [dim][dim] blocks. */
+struct solver_output {
+    const struct solver_cloud *cloud;
+    double time; /* [s] */
+    size_t step;
+    const double *V;         /* [count] stencil volumes: the weights of every norm and sum */
+    const double *u;         /* [count][dim] displacement [m] */
+    const double *v;         /* [count][dim] velocity [m/s] */
+    const double *p;         /* [count][dim] linear momentum per unit reference volume [kg/(m^2 s)] */
+    const double *F;         /* [count][dim*dim] deformation gradient */
+    const double *H;         /* [count][dim*dim] cofactor (evolved, or that of F) */
+    const double *J;         /* [count] Jacobian (evolved, or that of F) */
+    const double *P;         /* [count][dim*dim] first Piola-Kirchhoff stress [Pa] */
+    const double *pressure;  /* [count] mean Cauchy stress tr(sigma)/3 [Pa], positive in tension as in the papers */
+    const double *von_mises; /* [count] von Mises equivalent of the Cauchy stress [Pa] */
+};
+
+/* Conserved quantities at one time; momenta and energies per unit thickness in 2D, per unit area in 1D. */
+struct solver_totals {
+    double time;            /* [s] */
+    double linear[3];       /* linear momentum [kg m/s] */
+    double angular[3];      /* angular momentum about the origin [kg m^2/s] */
+    double kinetic, strain; /* [J] */
+    double external;        /* work of tractions and body forces since the start [J] */
+};
+
+/* Time history: one row per recorded time. */
+struct solver_history {
+    size_t count;
+    struct solver_totals *totals; /* [count] */
+    size_t probe_count;
+    char (*probe_name)[64];       /* [probe_count] */
+    double (*probe_X)[3];         /* [probe_count] where the probed particle lies [m] */
+    double *probe_u;              /* [count][probe_count][3] displacement [m] */
+    double *probe_v;              /* [count][probe_count][3] velocity [m/s] */
+};
+
+/* What a run is made of, for reports. */
+struct solver_facts {
+    size_t particles, pairs, steps;
+    double spacing;             /* [m] */
+    double setup_seconds;       /* cloud and stencil */
+    double seconds;             /* time loop alone */
+    double bytes_per_particle;  /* all arrays of state, stencil and integrator, over the particle count */
+    double state_bytes;         /* fields of the scheme alone, per particle */
+    double stencil_residual;    /* largest relative violation of closure and linear exactness */
+    int threads;
+};
+
+bool solver_run_create(const struct solver_scene *scene, struct solver_run **run, struct solver_error *error);
+void solver_run_free(struct solver_run *run);
+
+/* Called now and then with the fraction done; returning false stops the run early, without error. */
+typedef bool solver_progress(void *context, double time, double t_end, size_t step);
+
+/* Advances to t_end. On a NaN or an inverted particle (J <= 0) fails with SOLVER_BROKE_DOWN naming step, time,
+ * particle, place and field; the output is then the last good state. */
+bool solver_run_to(struct solver_run *run, double t_end, solver_progress *progress, void *context,
+                   struct solver_error *error);
+/* Exactly `steps` steps of the size the scene's CFL number gives, whatever t_end says. */
+bool solver_run_steps(struct solver_run *run, size_t steps, struct solver_error *error);
+
+bool solver_run_output(struct solver_run *run, struct solver_output *output, struct solver_error *error);
+const struct solver_history *solver_run_history(const struct solver_run *run);
+struct solver_facts solver_run_facts(const struct solver_run *run);
+
+#endif

@@ -1,0 +1,157 @@
+/* A scene: what is simulated, read from a sandboxed Lua 5.4 file.
+ *
+ * The file assigns globals, one per key (`title = "..."`, `material = { model = ..., E = ... }`). Keys, types and
+ * admissible values are one table in scene_keys.c. `parameters = { A = 1, ... }` declares numbers of the scene's own;
+ * each is then a global that formulas read and `--set A=2` overrides. An override takes effect where the file assigns
+ * the key, so that values computed further down see it; those for keys the file leaves at their default are applied
+ * at the end. */
+#ifndef SOLVER_SCENE_H
+#define SOLVER_SCENE_H
+
+#include "solver/error.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum { SOLVER_NAME = 64, SOLVER_TEXT = 512, SOLVER_LEVELS = 16, SOLVER_PROBES = 16, SOLVER_GATES = 32,
+       SOLVER_NAMED = 16, SOLVER_ROWS = 16, SOLVER_FACES = 6 };
+
+/* Formulas a scene may hold. All are called as f(X, Y, Z, t) in metres and seconds (missing dimensions are 0) and
+ * return dim numbers (F: dim*dim, row by row). */
+enum solver_formula {
+    SOLVER_INITIAL_DISPLACEMENT, /* initial.displacement [m] */
+    SOLVER_INITIAL_VELOCITY,     /* initial.velocity [m/s] */
+    SOLVER_INITIAL_F,            /* initial.F [-]; without it F is the stencil's gradient of x */
+    SOLVER_BODY_FORCE,           /* body_force [N/m^3], per unit reference volume */
+    SOLVER_FACE_X0,              /* faces.X0.value: traction [Pa] or velocity [m/s]; X1, Y0, Y1, Z0, Z1 follow */
+    SOLVER_FACE_Z1 = SOLVER_FACE_X0 + 5,
+    SOLVER_FORMULAS
+};
+
+enum solver_face_kind {
+    SOLVER_FREE,      /* no traction */
+    SOLVER_SYMMETRIC, /* no displacement along the normal */
+    SOLVER_SKEW,      /* no displacement across the normal (skew-symmetric) */
+    SOLVER_CLAMPED,   /* no displacement */
+    SOLVER_TRACTION,  /* first Piola-Kirchhoff traction by formula [Pa] */
+    SOLVER_MOTION     /* velocity by formula [m/s] */
+};
+
+/* Evolved sets of 000_e9ec29e1bde7947d.txt: the geometric measures that have an equation of their own. */
+enum solver_evolved { SOLVER_PF, SOLVER_PFJ, SOLVER_PFHJ };
+
+struct solver_named {
+    char name[SOLVER_NAME];
+    double value;
+};
+
+/* A row of the published table: error values at `n` spacings. */
+struct solver_published_row {
+    int n;
+    size_t count;
+    struct solver_named value[SOLVER_NAMED];
+};
+
+/* One entry of `gates`: bounds that hold where every key under `when` has the given value in this run.
+ * Bound names: an error name ("p", "P": largest error at the finest level) or "rate NAME" (smallest observed order
+ * between the two finest levels). An entry without `when` holds where no other does. */
+struct solver_gate_rule {
+    size_t conditions;
+    char key[SOLVER_NAMED][SOLVER_NAME];
+    char text[SOLVER_NAMED][SOLVER_NAME]; /* the value as `--set` would spell it */
+    size_t bounds;
+    struct solver_named bound[SOLVER_NAMED];
+};
+
+struct solver_probe {
+    char name[SOLVER_NAME];
+    double X[3]; /* [m]; the nearest particle is recorded */
+};
+
+/* The fixed view of the scene's picture. */
+struct solver_view {
+    char field[SOLVER_NAME]; /* a scalar of the record: "pressure", "von_mises", "displacement", "displacement_x", ... */
+    double range[2];         /* colour range, in the field's unit */
+    int bands;               /* filled contour bands */
+    double direction[3];     /* from the body towards the eye */
+    double up[3];
+    double magnify;          /* displacement shown = magnify * displacement */
+    int size[2];             /* pixels */
+};
+
+struct solver_scene {
+    char path[4096];
+    char name[SOLVER_NAME];   /* file name without folder and .lua */
+    char title[SOLVER_TEXT];
+    char source[SOLVER_TEXT]; /* paper and section, may be empty */
+    char *text;               /* the whole file */
+    char *overrides;          /* "KEY=value\n" lines as given, "" if none */
+
+    int dim;                         /* 1, 2, 3 */
+    double lower[3], upper[3];       /* box domain [m] */
+    double reference_length;         /* [m]; spacing = reference_length / n */
+    int n;                           /* spacings along the reference length */
+    int levels[SOLVER_LEVELS];       /* values of n for a study, increasing */
+    size_t level_count;
+    double perturb;                  /* random shift of interior particles, as a fraction of the spacing, [0, 0.3] */
+    uint64_t seed;
+
+    char material_model[SOLVER_NAME];
+    double E, nu, rho;               /* [Pa], [-], [kg/m^3] */
+
+    char scheme[SOLVER_NAME];        /* "upwind" */
+    enum solver_evolved evolved;
+    char stencil[SOLVER_NAME];       /* "sph", "closed", "sbp2", "sbp4" */
+    double support;                  /* support radius / spacing */
+    char reconstruction[SOLVER_NAME];/* "stencil", "least-squares", "none" */
+    char integrator[SOLVER_NAME];
+    double cfl;
+    double t_end;                    /* [s] */
+    char precision[SOLVER_NAME];     /* "double" */
+    int threads;                     /* 0: all that the machine offers */
+
+    enum solver_face_kind face[SOLVER_FACES]; /* X0, X1, Y0, Y1, Z0, Z1 */
+    struct solver_probe probe[SOLVER_PROBES];
+    size_t probe_count;
+
+    char oracle[SOLVER_NAME];        /* "" if the scene answers to none */
+    size_t oracle_told_count;        /* oracle.KEY = number: told to the oracle in place of the scene's own value */
+    struct solver_named oracle_told[SOLVER_NAMED];
+    char published_source[SOLVER_TEXT];
+    size_t published_count;
+    struct solver_published_row published[SOLVER_ROWS];
+    size_t gate_count;
+    struct solver_gate_rule gate[SOLVER_GATES];
+    bool has_view;
+    struct solver_view view;
+
+    struct solver_scene_lua *lua;    /* the interpreter that holds the formulas; private */
+};
+
+/* Reads a scene file and applies `overrides` ("key=value", value a number, true, false or a bare word; a list is
+ * written {1,2,3}). Errors name file and key and say what was expected. On failure *scene is NULL. */
+bool solver_scene_load(const char *path, const char *const *overrides, size_t override_count,
+                       struct solver_scene **scene, struct solver_error *error);
+void solver_scene_free(struct solver_scene *scene);
+
+/* Whether the scene gives this formula. */
+bool solver_scene_has(const struct solver_scene *scene, enum solver_formula formula);
+/* Evaluates a formula at X [m] (3 entries) and t [s]: `count` numbers into out. Runs under an instruction budget;
+ * errors name file, key and place. Not thread-safe: one interpreter per scene. */
+bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula formula, const double X[3], double t,
+                       double *out, size_t count, struct solver_error *error);
+/* A number of the scene by its path: "material.nu", "cfl", or one of the scene's parameters ("U0").
+ * False if there is none of that name. */
+bool solver_scene_number(const struct solver_scene *scene, const char *path, double *value);
+/* The value of a plain key as `--set` would spell it ("closed", "0.3"): for gate conditions and reports. */
+bool solver_scene_text(const struct solver_scene *scene, const char *path, char *out, size_t size);
+
+/* The keys every scene understands, for `assay list`; ends with a NULL key. */
+struct solver_scene_key {
+    const char *key;
+    const char *expects; /* "number > 0 [Pa]", "one of upwind" */
+    const char *meaning;
+};
+const struct solver_scene_key *solver_scene_keys(void);
+
+#endif

@@ -1,0 +1,24 @@
+#include "tests/unit/unit.h"
+
+#include <CUnit/Basic.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+int unit_main(const char *suite, const struct unit_test *tests, size_t count)
+{
+    if (CU_initialize_registry() != CUE_SUCCESS) {
+        return 2;
+    }
+    CU_pSuite registered = CU_add_suite(suite, NULL, NULL);
+    for (size_t i = 0; i < count; i++) {
+        if (registered == NULL || CU_add_test(registered, tests[i].name, tests[i].run) == NULL) {
+            (void)fprintf(stderr, "%s: cannot add test %s: %s\n", suite, tests[i].name, CU_get_error_msg());
+            return 2;
+        }
+    }
+    CU_basic_set_mode(CU_BRM_VERBOSE);
+    (void)CU_basic_run_tests();
+    bool passed = CU_get_number_of_failures() == 0 && CU_get_number_of_asserts() > 0;
+    CU_cleanup_registry();
+    return passed ? 0 : 1;
+}

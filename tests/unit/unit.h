@@ -1,0 +1,16 @@
+/* Runs one CUnit suite and turns the result into an exit code. A suite without assertions fails. */
+#ifndef TESTS_UNIT_H
+#define TESTS_UNIT_H
+
+#include <CUnit/CUnit.h>
+#include <stddef.h>
+
+struct unit_test {
+    const char *name;
+    void (*run)(void);
+};
+
+/* Call from main: `return unit_main("cloud", tests, sizeof tests / sizeof *tests);` */
+int unit_main(const char *suite, const struct unit_test *tests, size_t count);
+
+#endif
