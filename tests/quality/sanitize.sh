@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Builds with the address and undefined-behaviour sanitizers and runs all unit programs.
+# Usage: sanitize.sh SOURCE BUILD
+set -euo pipefail
+source=$1 build=$2
+"$(dirname -- "$0")/build.sh" "$source" "$build" sanitize
+for program in "$build"/tests/test_*; do
+  # A build that lost its flags would pass whatever the code does.
+  nm -D "$program" | grep -q __asan_init || { echo "$program is not built with sanitizers"; exit 1; }
+done
+export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
+exec ctest --test-dir "$build" -R '^unit-' --output-on-failure --no-tests=error --parallel "$(nproc)"

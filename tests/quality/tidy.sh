@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# The checks named in .clang-tidy on every source file, as the compilation database of BUILD compiles it.
+# Usage: tidy.sh SOURCE BUILD
+set -euo pipefail
+source=$1 build=$2
+cd -- "$source"
+mapfile -d '' -t files < <(find solver oracles render golden verify tests -name '*.c' -print0)
+((${#files[@]})) || { echo "no C files under $PWD"; exit 1; }
+for file in "${files[@]}"; do
+  grep -qF "\"file\": \"$source/$file\"" "$build/compile_commands.json" || { echo "$file is not compiled"; exit 1; }
+done
+# Largest first, so that no core is left with a long one at the end.
+# shellcheck disable=SC2012 # names in the rooms hold no newlines
+ls -S -- "${files[@]}" | tr '\n' '\0' | xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 -p "$build" --quiet 2>/dev/null
+echo "${#files[@]} files"
