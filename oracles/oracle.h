@@ -11,7 +11,9 @@ struct oracle_parameter {
     const char *name; /* as the scene spells it: "U0", "material.nu" */
     const char *unit; /* "m", "Pa", "-" */
     const char *help;
-    double lower, upper; /* admissible interval, ends included; infinite where open */
+    double lower, upper;         /* admissible interval; values are finite even where an end is not */
+    bool lower_open, upper_open; /* the end itself is not admissible */
+    double typical;              /* an admissible value: the source's own */
 };
 
 /* The exact state at one place and time; tensors row by row, always 3D. */
@@ -27,9 +29,10 @@ enum oracle_smoothness { ORACLE_SMOOTH, ORACLE_KINKS, ORACLE_JUMPS };
 
 /* Result of a self-check: one line per law, each a dimensionless residual and the bound it must stay under. */
 struct oracle_check {
-    const char *law; /* "PDE", "initial displacement", "traction on X1", "second evaluation", ... */
+    const char *law; /* "dp/dt = Div P", "initial displacement", "traction on X1", "second evaluation: u", ... */
     double residual, bound;
 };
+enum { ORACLE_LAWS = 64 }; /* no kind has more lines than this */
 
 struct oracle;
 
@@ -46,8 +49,10 @@ struct oracle_kind {
     void (*state)(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state);
     /* Total energies of the body [J]. */
     void (*energy)(const struct oracle *oracle, double t, double *kinetic, double *strain);
-    /* Fills up to `size` lines; returns how many there are. Every line must be able to fail. */
-    size_t (*check)(const struct oracle *oracle, struct oracle_check *line, size_t size);
+    /* Fills up to `size` lines; returns how many there are. Every line must be able to fail. Fields and energies are
+     * taken from `kind`, so that a kind with a spoiled formula is caught by the check of the true one. */
+    size_t (*check)(const struct oracle_kind *kind, const struct oracle *oracle, struct oracle_check *line,
+                    size_t size);
 };
 
 /* All oracles, NULL-terminated. */
@@ -56,5 +61,12 @@ const struct oracle_kind *const *oracle_kinds(void);
 const struct oracle_kind *oracle_find(const char *name);
 /* Checks that every value is finite and admissible, then creates. The kind's destroy frees. */
 bool oracle_create(const struct oracle_kind *kind, const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
+
+/* Whether a line of a self-check holds: a NaN holds nothing. */
+bool oracle_law_holds(const struct oracle_check *line);
+/* Runs the kind's self-check: fills `line`, sets *count to the number of lines, and returns whether there is at least
+ * one and all of them hold. */
+bool oracle_self_check(const struct oracle_kind *kind, const struct oracle *oracle,
+                       struct oracle_check line[ORACLE_LAWS], size_t *count);
 
 #endif
