@@ -1,0 +1,127 @@
+#include "verify/files.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool failed(struct solver_error *error, const char *verb, const char *path, int number)
+{
+    return solver_fail(error, SOLVER_IO, "%s: cannot %s: %s", path, verb, strerror(number));
+}
+
+static int write_all(int file, const char *bytes, size_t size)
+{
+    while (size > 0) {
+        ssize_t written = write(file, bytes, size);
+        if (written < 0 && errno == EINTR) {
+            continue;
+        }
+        if (written < 0) {
+            return errno;
+        }
+        bytes += written;
+        size -= (size_t)written;
+    }
+    return fsync(file) == 0 ? 0 : errno;
+}
+
+bool verify_file_write(const char *path, const void *bytes, size_t size, struct solver_error *error)
+{
+    struct stat status;
+    if (lstat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
+        return solver_fail(error, SOLVER_IO, "%s: is not a plain file; name another file to write to", path);
+    }
+    char beside[VERIFY_PATH];
+    if (snprintf(beside, sizeof beside, "%s.%ld.part", path, (long)getpid()) >= (int)sizeof beside) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "the file name is too long: %.200s...", path);
+    }
+    int file = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0) {
+        return failed(error, "write", path, errno);
+    }
+    int number = write_all(file, bytes, size);
+    if (close(file) != 0 && number == 0) {
+        number = errno;
+    }
+    if (number == 0 && rename(beside, path) != 0) {
+        number = errno;
+    }
+    if (number != 0) {
+        (void)unlink(beside);
+        return failed(error, "write", path, number);
+    }
+    return true;
+}
+
+static bool read_stream(FILE *file, const char *path, size_t size, char *bytes, struct solver_error *error)
+{
+    size_t got = fread(bytes, 1, size, file);
+    if (got != size) {
+        return solver_fail(error, SOLVER_IO, "%s: only %zu of %zu bytes could be read", path, got, size);
+    }
+    bytes[size] = '\0';
+    return true;
+}
+
+bool verify_file_read(const char *path, char **bytes, size_t *size, struct solver_error *error)
+{
+    FILE *file = fopen(path, "rbe");
+    struct stat status;
+    if (file == NULL || fstat(fileno(file), &status) != 0) {
+        int number = errno;
+        if (file != NULL) {
+            (void)fclose(file);
+        }
+        return failed(error, "read", path, number);
+    }
+    if (!S_ISREG(status.st_mode) || status.st_size > (1L << 30)) {
+        (void)fclose(file);
+        return solver_fail(error, SOLVER_IO, "%s: is not a plain file of at most 1 GiB", path);
+    }
+    *size = (size_t)status.st_size;
+    *bytes = malloc(*size + 1);
+    bool done = *bytes == NULL ? solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for its %zu bytes", path, *size)
+                               : read_stream(file, path, *size, *bytes, error);
+    if (!done) {
+        free(*bytes);
+        *bytes = NULL;
+    }
+    (void)fclose(file);
+    return done;
+}
+
+bool verify_folder_make(const char *path, struct solver_error *error)
+{
+    char part[VERIFY_PATH];
+    size_t length = strlen(path);
+    if (length == 0 || length >= sizeof part) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "the folder name is empty or too long");
+    }
+    for (size_t i = 1; i <= length; i++) {
+        if (path[i] != '/' && path[i] != '\0') {
+            continue;
+        }
+        memcpy(part, path, i);
+        part[i] = '\0';
+        if (mkdir(part, 0777) != 0 && errno != EEXIST) {
+            return failed(error, "make the folder", part, errno);
+        }
+    }
+    struct stat status;
+    if (stat(path, &status) != 0 || !S_ISDIR(status.st_mode)) {
+        return solver_fail(error, SOLVER_IO, "%s: is not a folder", path);
+    }
+    return true;
+}
+
+bool verify_path_join(char *path, const char *folder, const char *name, const char *ending, struct solver_error *error)
+{
+    if (snprintf(path, VERIFY_PATH, "%s/%s%s", folder, name, ending) >= VERIFY_PATH) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "the path is too long: %.200s...", folder);
+    }
+    return true;
+}

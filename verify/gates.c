@@ -1,0 +1,91 @@
+#include "verify/gates.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool verify_gate_judge(double value, const char *op, double bound)
+{
+    if (!isfinite(value) || !isfinite(bound)) {
+        return false;
+    }
+    return strcmp(op, "<=") == 0 ? value <= bound : strcmp(op, ">=") == 0 && value >= bound;
+}
+
+/* Numbers are the same however they are spelt: 0.3 and 0.30. */
+static bool same_value(const char *a, const char *b)
+{
+    char *end_a = NULL, *end_b = NULL;
+    double x = strtod(a, &end_a), y = strtod(b, &end_b);
+    bool numbers = end_a != a && *end_a == '\0' && end_b != b && *end_b == '\0';
+    return numbers ? x == y : strcmp(a, b) == 0;
+}
+
+static bool holds(const struct solver_scene *scene, size_t index, bool *met, struct solver_error *why)
+{
+    const struct solver_gate_rule *rule = &scene->gate[index];
+    *met = true;
+    for (size_t i = 0; i < rule->conditions; i++) {
+        char text[SOLVER_TEXT];
+        if (!solver_scene_text(scene, rule->key[i], text, sizeof text)) {
+            return solver_fail(why, SOLVER_BAD_INPUT,
+                               "%s: gates[%zu].when.%s: the scene has no such key; see assay list keys", scene->path,
+                               index + 1, rule->key[i]);
+        }
+        *met = *met && same_value(text, rule->text[i]);
+    }
+    return true;
+}
+
+static bool judge_bound(const struct solver_scene *scene, size_t index, const struct solver_named *bound,
+                        const double error[VERIFY_ERRORS], const double rate[VERIFY_ERRORS], struct verify_gate *gate,
+                        struct solver_error *why)
+{
+    static const char prefix[] = "rate ";
+    bool is_rate = strncmp(bound->name, prefix, sizeof prefix - 1) == 0;
+    size_t which = verify_error_find(bound->name + (is_rate ? sizeof prefix - 1 : 0));
+    if (which == VERIFY_ERRORS) {
+        return solver_fail(why, SOLVER_BAD_INPUT,
+                           "%s: gates[%zu]: there is no error called \"%s\"; there are p, P, P_all, u, F, each also "
+                           "with _abs, _max or _abs_max, and \"rate \" before any of them",
+                           scene->path, index + 1, bound->name);
+    }
+    *gate = (struct verify_gate){
+        .value = is_rate ? rate[which] : error[which],
+        .bound = bound->value,
+        .op = is_rate ? ">=" : "<=",
+        .unit = is_rate ? "-" : verify_error_unit(which),
+    };
+    (void)snprintf(gate->name, sizeof gate->name, "%s", bound->name);
+    gate->pass = verify_gate_judge(gate->value, gate->op, gate->bound);
+    return true;
+}
+
+bool verify_gates_judge(const struct solver_scene *scene, const double error[VERIFY_ERRORS],
+                        const double rate[VERIFY_ERRORS], struct verify_gates *gates, struct solver_error *why)
+{
+    bool met[SOLVER_GATES], any_with_conditions = false;
+    for (size_t i = 0; i < scene->gate_count; i++) {
+        if (!holds(scene, i, &met[i], why)) {
+            return false;
+        }
+        any_with_conditions = any_with_conditions || (met[i] && scene->gate[i].conditions > 0);
+    }
+    gates->count = 0;
+    gates->pass = true;
+    for (size_t i = 0; i < scene->gate_count; i++) {
+        for (size_t j = 0; j < scene->gate[i].bounds; j++) {
+            struct verify_gate gate;
+            if (!judge_bound(scene, i, &scene->gate[i].bound[j], error, rate, &gate, why)) {
+                return false;
+            }
+            if (met[i] && !(any_with_conditions && scene->gate[i].conditions == 0)) {
+                gates->gate[gates->count++] = gate;
+                gates->pass = gates->pass && gate.pass;
+            }
+        }
+    }
+    gates->pass = gates->pass && gates->count > 0;
+    return true;
+}

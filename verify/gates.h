@@ -1,0 +1,38 @@
+/* Gates: what a study must show, judged. Each is one-sided, so that better never fails. */
+#ifndef VERIFY_GATES_H
+#define VERIFY_GATES_H
+
+#include "solver/scene.h"
+#include "verify/norms.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { VERIFY_GATES = SOLVER_GATES * SOLVER_NAMED };
+
+struct verify_gate {
+    char name[SOLVER_NAME]; /* "p": error at the finest level; "rate p": order between the two finest levels */
+    double value;           /* measured; NaN if it could not be */
+    double bound;
+    const char *op; /* "<=" for errors, ">=" for orders */
+    const char *unit;
+    bool pass;
+};
+
+struct verify_gates {
+    size_t count; /* 0: no rule of the scene holds for this configuration, so nothing was judged */
+    struct verify_gate gate[VERIFY_GATES];
+    bool pass; /* at least one gate, and all of them pass */
+};
+
+/* Whether `value op bound` holds, op being "<=" or ">=". A value or bound that is not finite never passes: it is no
+ * measurement. */
+bool verify_gate_judge(double value, const char *op, double bound);
+
+/* Judges the rules that hold for the scene's configuration: all whose conditions it meets or, where none of those has
+ * conditions, the rules without. error: at the finest level; rate: between the two finest (NaN with one level).
+ * Fails (SOLVER_BAD_INPUT) on a rule that names no key of the scene or no error. */
+bool verify_gates_judge(const struct solver_scene *scene, const double error[VERIFY_ERRORS],
+                        const double rate[VERIFY_ERRORS], struct verify_gates *gates, struct solver_error *why);
+
+#endif

@@ -1,0 +1,153 @@
+#include "verify/norms.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Field by field, in the order of the four norms. */
+#define NAMES(field) field, field "_abs", field "_max", field "_abs_max"
+#define UNITS(unit)  "-", unit, "-", unit
+#define MEANINGS(field)                                                                                                \
+    "relative L2 error of the " field, "absolute L2 error of the " field, "relative max error of the " field,          \
+        "absolute max error of the " field
+
+static const char *const name_table[VERIFY_ERRORS] = {NAMES("p"), NAMES("P"), NAMES("P_all"), NAMES("u"), NAMES("F")};
+static const char *const unit_table[VERIFY_ERRORS] = {UNITS("kg/(m^2 s)"), UNITS("Pa"), UNITS("Pa"), UNITS("m"),
+                                                      UNITS("-")};
+static const char *const meaning_table[VERIFY_ERRORS] = {
+    MEANINGS("linear momentum, all components"),
+    MEANINGS("first Piola-Kirchhoff stress, normal components"),
+    MEANINGS("first Piola-Kirchhoff stress, all components"),
+    MEANINGS("displacement, all components"),
+    MEANINGS("deformation gradient less the identity, all components"),
+};
+
+/* Unlike fmax, keeps a NaN. */
+static double larger(double a, double b)
+{
+    return isnan(a) || a > b ? a : b;
+}
+
+struct verify_norms verify_norms_field(size_t count, size_t width, const double *V, const double *computed,
+                                       const double *exact)
+{
+    double volume = 0, error_sum = 0, exact_sum = 0, error_max = 0, exact_max = 0;
+    for (size_t a = 0; a < count; a++) {
+        double error = 0, size = 0;
+        for (size_t i = a * width; i < (a + 1) * width; i++) {
+            double e = computed[i] - exact[i];
+            error += e * e;
+            size += exact[i] * exact[i];
+        }
+        volume += V[a];
+        error_sum += V[a] * error;
+        exact_sum += V[a] * size;
+        error_max = larger(error_max, error);
+        exact_max = larger(exact_max, size);
+    }
+    return (struct verify_norms){
+        .relative_l2 = exact_sum > 0 ? sqrt(error_sum / exact_sum) : NAN,
+        .absolute_l2 = sqrt(error_sum / volume),
+        .relative_max = exact_max > 0 ? sqrt(error_max / exact_max) : NAN,
+        .absolute_max = sqrt(error_max),
+    };
+}
+
+const char *verify_error_name(size_t error)
+{
+    return name_table[error];
+}
+
+const char *verify_error_unit(size_t error)
+{
+    return unit_table[error];
+}
+
+const char *verify_error_meaning(size_t error)
+{
+    return meaning_table[error];
+}
+
+size_t verify_error_find(const char *name)
+{
+    size_t error = 0;
+    while (error < VERIFY_ERRORS && strcmp(name_table[error], name) != 0) {
+        error++;
+    }
+    return error;
+}
+
+static size_t field_width(enum verify_field field, size_t dim)
+{
+    return field == VERIFY_P_ALL || field == VERIFY_F ? dim * dim : dim;
+}
+
+/* One particle's components of a field. Vectors are read with their own stride; `stride` is the row length of the
+ * tensors, dim for the solver and 3 for an oracle. */
+static void gather(enum verify_field field, size_t dim, size_t stride, const double *vector, const double *tensor,
+                   double *out)
+{
+    for (size_t i = 0; i < dim; i++) {
+        if (field == VERIFY_p || field == VERIFY_u) {
+            out[i] = vector[i];
+        } else if (field == VERIFY_P) {
+            out[i] = tensor[i * stride + i];
+        } else {
+            for (size_t j = 0; j < dim; j++) {
+                out[i * dim + j] = tensor[i * stride + j] - (field == VERIFY_F && i == j ? 1.0 : 0.0);
+            }
+        }
+    }
+}
+
+static struct verify_norms measure(enum verify_field field, const struct solver_output *output,
+                                   const struct oracle_state *state, double *computed, double *exact)
+{
+    size_t dim = (size_t)output->cloud->dim;
+    size_t width = field_width(field, dim);
+    for (size_t a = 0; a < output->cloud->count; a++) {
+        const double *vector = (field == VERIFY_u ? output->u : output->p) + a * dim;
+        const double *tensor = (field == VERIFY_F ? output->F : output->P) + a * dim * dim;
+        gather(field, dim, dim, vector, tensor, computed + a * width);
+        gather(field, dim, 3, field == VERIFY_u ? state[a].u : state[a].p, field == VERIFY_F ? state[a].F : state[a].P,
+               exact + a * width);
+    }
+    return verify_norms_field(output->cloud->count, width, output->V, computed, exact);
+}
+
+static void measure_all(const struct solver_output *output, const struct oracle_kind *kind, const struct oracle *oracle,
+                        struct oracle_state *state, double *computed, double *exact, double error[VERIFY_ERRORS])
+{
+    size_t dim = (size_t)output->cloud->dim;
+    for (size_t a = 0; a < output->cloud->count; a++) {
+        double X[3] = {0, 0, 0};
+        memcpy(X, output->cloud->X + a * dim, dim * sizeof *X);
+        kind->state(oracle, X, output->time, &state[a]);
+    }
+    for (size_t field = 0; field < VERIFY_FIELDS; field++) {
+        struct verify_norms norms = measure((enum verify_field)field, output, state, computed, exact);
+        error[4 * field] = norms.relative_l2;
+        error[4 * field + 1] = norms.absolute_l2;
+        error[4 * field + 2] = norms.relative_max;
+        error[4 * field + 3] = norms.absolute_max;
+    }
+}
+
+bool verify_norms_measure(const struct solver_output *output, const struct oracle_kind *kind,
+                          const struct oracle *oracle, double error[VERIFY_ERRORS], struct solver_error *why)
+{
+    size_t count = output->cloud->count;
+    struct oracle_state *state = calloc(count, sizeof *state);
+    double *computed = calloc(count, 9 * sizeof *computed);
+    double *exact = calloc(count, 9 * sizeof *exact);
+    bool done = state != NULL && computed != NULL && exact != NULL;
+    if (done) {
+        measure_all(output, kind, oracle, state, computed, exact, error);
+    } else {
+        (void)solver_fail(why, SOLVER_NO_MEMORY, "no memory to compare %zu particles with the oracle", count);
+    }
+    free(state);
+    free(computed);
+    free(exact);
+    return done;
+}

@@ -1,0 +1,243 @@
+#include "verify/options.h"
+
+#include "verify/suggest.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct option {
+    const char *name;
+    const char *short_name; /* NULL if none */
+    const char *value;      /* what the help calls it; NULL: takes none */
+    const char *help;
+    unsigned bit; /* 0: every command takes it */
+};
+
+static const struct option options_table[] = {
+    {"--set", "-s", "KEY=VALUE", "override a key of the scene; may be repeated", VERIFY_TAKES_SET},
+    {"--levels", "-l", "N,N,...", "spacings along the reference length, increasing", VERIFY_TAKES_LEVELS},
+    {"--json", "-j", "FILE", "write the result for programs", VERIFY_TAKES_JSON},
+    {"--out", "-O", "DIR", "folder for the files written (default out/SCENE)", VERIFY_TAKES_OUT},
+    {"--output", "-o", "PNG", "the picture's file (default: the record's name with .png)", VERIFY_TAKES_PICTURE},
+    {"--dir", "-d", "DIR", "folder of the golden records (default: the source's golden/)", VERIFY_TAKES_DIR},
+    {"--help", "-h", NULL, "this text", 0},
+};
+enum { OPTIONS = sizeof options_table / sizeof *options_table };
+
+static bool takes(const struct verify_command *command, const struct option *option)
+{
+    return option->bit == 0 || (command->takes & option->bit) != 0;
+}
+
+static bool bad(struct solver_error *error, const struct verify_command *command, const char *word, const char *why)
+{
+    return solver_fail(error, SOLVER_BAD_INPUT, "%s: %s; see assay %s --help", word, why, command->name);
+}
+
+static const struct option *find(const char *word, size_t length)
+{
+    for (size_t i = 0; i < OPTIONS; i++) {
+        const struct option *option = &options_table[i];
+        bool is_long = strlen(option->name) == length && strncmp(option->name, word, length) == 0;
+        bool is_short = option->short_name != NULL && length == 2 && strncmp(option->short_name, word, 2) == 0;
+        if (is_long || is_short) {
+            return option;
+        }
+    }
+    return NULL;
+}
+
+static bool unknown(const struct verify_command *command, const char *word, struct solver_error *error)
+{
+    const char *names[OPTIONS];
+    size_t count = 0;
+    for (size_t i = 0; i < OPTIONS; i++) {
+        if (takes(command, &options_table[i])) {
+            names[count++] = options_table[i].name;
+        }
+    }
+    char name[64];
+    (void)snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word);
+    const char *meant = verify_suggest(name, names, count);
+    if (meant != NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "unknown option %s for assay %s; did you mean %s?", word,
+                           command->name, meant);
+    }
+    return solver_fail(error, SOLVER_BAD_INPUT, "unknown option %s; see assay %s --help", word, command->name);
+}
+
+/* "4,8,16": whole numbers above 0, increasing. */
+static bool read_levels(const struct verify_command *command, const char *text, struct verify_options *options,
+                        struct solver_error *error)
+{
+    options->level_count = 0;
+    for (const char *c = text;; c++) {
+        char *end = NULL;
+        errno = 0;
+        long n = isdigit((unsigned char)*c) ? strtol(c, &end, 10) : 0;
+        if (end == NULL || errno != 0 || n < 1 || n > INT_MAX || (*end != ',' && *end != '\0')) {
+            return bad(error, command, text, "--levels wants whole numbers above 0 with commas between, as in 4,8,16");
+        }
+        if (options->level_count > 0 && n <= options->level[options->level_count - 1]) {
+            return bad(error, command, text, "--levels must increase from one to the next");
+        }
+        if (options->level_count == SOLVER_LEVELS) {
+            return bad(error, command, text, "--levels takes at most 16 numbers");
+        }
+        options->level[options->level_count++] = (int)n;
+        c = end;
+        if (*c == '\0') {
+            return true;
+        }
+    }
+}
+
+static bool read_override(const struct verify_command *command, const char *text, struct verify_options *options,
+                          struct solver_error *error)
+{
+    const char *equals = strchr(text, '=');
+    if (equals == NULL || equals == text) {
+        return bad(error, command, text, "--set wants KEY=VALUE, as in --set n=24");
+    }
+    for (const char *c = text; *c != '\0'; c++) {
+        if (iscntrl((unsigned char)*c)) {
+            return bad(error, command, "--set", "the value holds a control character, such as a line break");
+        }
+    }
+    /* One place stays free for what a study adds itself. */
+    if (options->override_count == VERIFY_OVERRIDES - 1) {
+        return bad(error, command, text, "too many --set (at most 63)");
+    }
+    options->override[options->override_count++] = text;
+    return true;
+}
+
+static bool once(const struct verify_command *command, const struct option *option, const char **place,
+                 const char *value, struct solver_error *error)
+{
+    if (*place != NULL) {
+        return bad(error, command, option->name, "given twice");
+    }
+    if (*value == '\0') {
+        return bad(error, command, option->name, "its value is empty");
+    }
+    *place = value;
+    return true;
+}
+
+static bool apply(const struct verify_command *command, const struct option *option, const char *value,
+                  struct verify_options *options, struct solver_error *error)
+{
+    switch (option->bit) {
+    case VERIFY_TAKES_SET:
+        return read_override(command, value, options, error);
+    case VERIFY_TAKES_LEVELS:
+        return read_levels(command, value, options, error);
+    case VERIFY_TAKES_JSON:
+        return once(command, option, &options->json, value, error);
+    case VERIFY_TAKES_OUT:
+        return once(command, option, &options->out, value, error);
+    case VERIFY_TAKES_PICTURE:
+        return once(command, option, &options->picture, value, error);
+    case VERIFY_TAKES_DIR:
+        return once(command, option, &options->dir, value, error);
+    default:
+        options->help = true;
+        return true;
+    }
+}
+
+static void keep_line(const struct verify_command *command, int count, char *const *words, char *line)
+{
+    int used = snprintf(line, VERIFY_COMMAND_LINE, "assay %s", command->name);
+    for (int i = 0; i < count && used < VERIFY_COMMAND_LINE; i++) {
+        size_t room = VERIFY_COMMAND_LINE - (size_t)used;
+        used += snprintf(line + used, room, " %s", words[i]);
+    }
+}
+
+static bool read_operand(const struct verify_command *command, const char *word, struct verify_options *options,
+                         struct solver_error *error)
+{
+    if (options->operand_count == command->most || options->operand_count == VERIFY_OPERANDS) {
+        return bad(error, command, word, command->most == 0 ? "this command takes no such word" : "one word too many");
+    }
+    options->operand[options->operand_count++] = word;
+    return true;
+}
+
+bool verify_options_parse(const struct verify_command *command, int count, char *const *words,
+                          struct verify_options *options, struct solver_error *error)
+{
+    *options = (struct verify_options){.operand_count = 0};
+    keep_line(command, count, words, options->line);
+    bool words_only = false; /* after "--" */
+    for (int i = 0; i < count; i++) {
+        const char *word = words[i];
+        if (!words_only && strcmp(word, "--") == 0) {
+            words_only = true;
+            continue;
+        }
+        if (words_only || word[0] != '-' || word[1] == '\0') {
+            if (!read_operand(command, word, options, error)) {
+                return false;
+            }
+            continue;
+        }
+        size_t length = strcspn(word, "=");
+        const struct option *option = find(word, length);
+        if (option == NULL || !takes(command, option)) {
+            return unknown(command, word, error);
+        }
+        const char *value = word[length] == '=' ? word + length + 1 : NULL;
+        if (option->value == NULL && value != NULL) {
+            return bad(error, command, word, "takes no value");
+        }
+        if (option->value != NULL && value == NULL) {
+            if (i + 1 == count) {
+                return solver_fail(error, SOLVER_BAD_INPUT, "%s wants %s after it; see assay %s --help", word,
+                                   option->value, command->name);
+            }
+            value = words[++i];
+        }
+        if (!apply(command, option, value, options, error)) {
+            return false;
+        }
+    }
+    if (!options->help && options->operand_count < command->least) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "assay %s wants %s; see assay %s --help", command->name,
+                           command->operands, command->name);
+    }
+    return true;
+}
+
+void verify_options_help(FILE *file, const struct verify_command *command)
+{
+    (void)fprintf(file, "usage: assay %s %s%s[options]\n\n%s\n\noptions:\n", command->name, command->operands,
+                  command->operands[0] == '\0' ? "" : " ", command->help);
+    for (size_t i = 0; i < OPTIONS; i++) {
+        const struct option *option = &options_table[i];
+        if (takes(command, option)) {
+            char left[48];
+            (void)snprintf(left, sizeof left, "%s, %s %s", option->short_name, option->name,
+                           option->value == NULL ? "" : option->value);
+            (void)fprintf(file, "  %-24s %s\n", left, option->help);
+        }
+    }
+}
+
+enum verify_exit verify_exit_code(const struct solver_error *error)
+{
+    switch (error->code) {
+    case SOLVER_OK:
+        return VERIFY_PASSED;
+    case SOLVER_BAD_INPUT:
+    case SOLVER_IO:
+        return VERIFY_BAD_INPUT;
+    default:
+        return VERIFY_RUN_FAILED;
+    }
+}

@@ -1,0 +1,64 @@
+/* The command line: which options there are, which command takes which, and what they say. */
+#ifndef VERIFY_OPTIONS_H
+#define VERIFY_OPTIONS_H
+
+#include "solver/error.h"
+#include "solver/scene.h"
+
+#include <stddef.h>
+#include <stdio.h>
+
+/* Exit codes of the program. */
+enum verify_exit {
+    VERIFY_PASSED = 0,     /* done; all gates pass */
+    VERIFY_FAILED = 1,     /* a gate or a comparison fails */
+    VERIFY_BAD_INPUT = 2,  /* command line, scene or file is wrong */
+    VERIFY_RUN_FAILED = 3, /* the run itself failed */
+};
+
+enum { VERIFY_OVERRIDES = 64, VERIFY_OPERANDS = 2, VERIFY_COMMAND_LINE = 2048 };
+
+/* Options a command may take, as a bit set. */
+enum verify_takes {
+    VERIFY_TAKES_SET = 1,
+    VERIFY_TAKES_LEVELS = 2,
+    VERIFY_TAKES_JSON = 4,
+    VERIFY_TAKES_OUT = 8,
+    VERIFY_TAKES_PICTURE = 16,
+    VERIFY_TAKES_DIR = 32,
+};
+
+struct verify_options {
+    size_t operand_count;
+    const char *operand[VERIFY_OPERANDS];
+    size_t override_count;
+    const char *override[VERIFY_OVERRIDES]; /* "KEY=value" */
+    size_t level_count;                     /* 0: those of the scene */
+    int level[SOLVER_LEVELS];
+    const char *json, *out, *picture, *dir; /* NULL where not given */
+    bool help;
+    char line[VERIFY_COMMAND_LINE]; /* the command line as typed, for the record */
+};
+
+/* One command of the program. */
+struct verify_command {
+    const char *name;
+    const char *operands; /* "SCENE", as the usage line prints them */
+    const char *summary;  /* one line */
+    const char *help;     /* paragraphs and examples */
+    unsigned takes;
+    size_t least, most; /* operands */
+    int (*run)(const struct verify_options *options);
+};
+
+/* Reads the words after the command's name. Errors (SOLVER_BAD_INPUT) name the word and suggest what was meant. */
+bool verify_options_parse(const struct verify_command *command, int count, char *const *words,
+                          struct verify_options *options, struct solver_error *error);
+
+/* Usage line, help and options of one command. */
+void verify_options_help(FILE *file, const struct verify_command *command);
+
+/* The exit code that belongs to an error. */
+enum verify_exit verify_exit_code(const struct solver_error *error);
+
+#endif

@@ -1,0 +1,69 @@
+#include "verify/simulate.h"
+
+#include "solver/record.h"
+#include "verify/files.h"
+#include "verify/progress.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+bool verify_record(const struct solver_scene *scene, struct solver_run *run, const char *folder, const char *stem,
+                   const char *command, char *path, struct solver_error *error)
+{
+    struct solver_output output;
+    return verify_path_join(path, folder, stem, ".vtkhdf", error) && solver_run_output(run, &output, error) &&
+           solver_record_write(path, scene, &output, solver_run_history(run), command, ASSAY_VERSION, error);
+}
+
+/* Adds to the error where the last good state is, or why it could not be kept. */
+static void keep_last_good(const struct solver_scene *scene, struct solver_run *run, const char *folder,
+                           const char *command, struct solver_error *error)
+{
+    char stem[SOLVER_NAME + 16], path[VERIFY_PATH];
+    struct solver_error why = {.code = SOLVER_OK};
+    (void)snprintf(stem, sizeof stem, "%s.last-good", scene->name);
+    bool kept = verify_record(scene, run, folder, stem, command, path, &why);
+    size_t used = strlen(error->text);
+    (void)snprintf(
+        error->text + used, sizeof error->text - used, "%s%.400s",
+        kept ? "; the last good state is in " : "; the last good state could not be kept: ", kept ? path : why.text);
+}
+
+static bool arrived(const struct solver_scene *scene, struct solver_run *run, struct solver_error *error)
+{
+    struct solver_output output;
+    if (!solver_run_output(run, &output, error)) {
+        return false;
+    }
+    if (!(fabs(output.time - scene->t_end) <= 1e-12 * fabs(scene->t_end))) {
+        return solver_fail(error, SOLVER_BROKE_DOWN, "%s: the run stopped at t = %.17g s, not at t_end = %.17g s",
+                           scene->name, output.time, scene->t_end);
+    }
+    return true;
+}
+
+bool verify_simulate(const struct solver_scene *scene, const char *folder, const char *command, struct solver_run **run,
+                     struct solver_error *error)
+{
+    char label[SOLVER_NAME + 32];
+    (void)snprintf(label, sizeof label, "%s, n = %d", scene->name, scene->n);
+    struct verify_progress progress;
+    verify_progress_begin(&progress, label);
+    *run = NULL;
+    if (!solver_run_create(scene, run, error)) {
+        verify_progress_end(&progress);
+        return false;
+    }
+    bool done = solver_run_to(*run, scene->t_end, verify_progress_show, &progress, error);
+    verify_progress_end(&progress);
+    if (!done && error->code == SOLVER_BROKE_DOWN) {
+        keep_last_good(scene, *run, folder, command, error);
+    }
+    if (!done || !arrived(scene, *run, error)) {
+        solver_run_free(*run);
+        *run = NULL;
+        return false;
+    }
+    return true;
+}

@@ -1,0 +1,16 @@
+/* A run from a loaded scene, with progress on the terminal and the last good state on disk if it breaks down. */
+#ifndef VERIFY_SIMULATE_H
+#define VERIFY_SIMULATE_H
+
+#include "solver/run.h"
+
+/* Creates a run and advances it to the scene's end time. If it breaks down, writes FOLDER/SCENE.last-good.vtkhdf and
+ * says so at the end of the error's text. On failure *run is NULL. */
+bool verify_simulate(const struct solver_scene *scene, const char *folder, const char *command, struct solver_run **run,
+                     struct solver_error *error);
+
+/* Writes the run's present state to FOLDER/STEM.vtkhdf (and .xdmf) and gives the path (VERIFY_PATH bytes). */
+bool verify_record(const struct solver_scene *scene, struct solver_run *run, const char *folder, const char *stem,
+                   const char *command, char *path, struct solver_error *error);
+
+#endif

@@ -1,0 +1,84 @@
+#include "verify/study.h"
+
+#include <math.h>
+#include <string.h>
+
+double verify_order(double e1, double h1, double e2, double h2)
+{
+    bool sensible = e1 >= 0 && e2 >= 0 && h1 > 0 && h2 > 0 && h1 != h2 && !(e1 == 0 && e2 == 0);
+    return sensible ? log(e1 / e2) / log(h1 / h2) : NAN;
+}
+
+void verify_study_add(struct verify_study *study, const struct verify_level *level)
+{
+    struct verify_level *added = &study->level[study->level_count];
+    *added = *level;
+    double particle_steps = (double)level->facts.particles * (double)level->facts.steps;
+    added->ns_per_particle_step = 1e9 * level->facts.seconds / particle_steps;
+    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
+        const struct verify_level *before = added - 1;
+        added->rate[i] = study->level_count == 0 ? NAN
+                                                 : verify_order(before->error[i], before->facts.spacing,
+                                                                added->error[i], added->facts.spacing);
+    }
+    study->level_count++;
+}
+
+bool verify_study_judge(struct verify_study *study, struct solver_error *error)
+{
+    const struct verify_level *finest = &study->level[study->level_count - 1];
+    return verify_gates_judge(study->scene, finest->error, finest->rate, &study->gates, error);
+}
+
+double verify_published(const struct solver_scene *scene, int n, const char *error_name)
+{
+    for (size_t i = 0; i < scene->published_count; i++) {
+        const struct solver_published_row *row = &scene->published[i];
+        for (size_t j = 0; row->n == n && j < row->count; j++) {
+            if (strcmp(row->value[j].name, error_name) == 0) {
+                return row->value[j].value;
+            }
+        }
+    }
+    return NAN;
+}
+
+static void want(bool wanted[VERIFY_ERRORS], size_t error)
+{
+    if (error < VERIFY_ERRORS) {
+        wanted[error] = true;
+    }
+}
+
+size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], struct solver_error *error)
+{
+    bool wanted[VERIFY_ERRORS] = {false};
+    want(wanted, verify_error_find("p"));
+    want(wanted, verify_error_find("P"));
+    for (size_t i = 0; i < scene->published_count; i++) {
+        for (size_t j = 0; j < scene->published[i].count; j++) {
+            const char *name = scene->published[i].value[j].name;
+            want(wanted, verify_error_find(name));
+            if (verify_error_find(name) == VERIFY_ERRORS) {
+                (void)solver_fail(error, SOLVER_BAD_INPUT,
+                                  "%s: published: there is no error called \"%s\"; there are p, P, P_all, u, F, each "
+                                  "also with _abs, _max or _abs_max",
+                                  scene->path, name);
+                return 0;
+            }
+        }
+    }
+    for (size_t i = 0; i < scene->gate_count; i++) {
+        for (size_t j = 0; j < scene->gate[i].bounds; j++) {
+            const char *name = scene->gate[i].bound[j].name;
+            want(wanted, verify_error_find(strncmp(name, "rate ", 5) == 0 ? name + 5 : name));
+        }
+    }
+    size_t count = 0;
+    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
+        if (wanted[i]) {
+            shown[count++] = i;
+        }
+    }
+    return count;
+}

@@ -1,0 +1,50 @@
+/* A convergence study: levels -> errors -> observed orders -> gates. */
+#ifndef VERIFY_STUDY_H
+#define VERIFY_STUDY_H
+
+#include "solver/run.h"
+#include "solver/scene.h"
+#include "verify/files.h"
+#include "verify/gates.h"
+#include "verify/norms.h"
+#include "verify/truth.h"
+
+#include <stddef.h>
+
+struct verify_level {
+    int n;                       /* spacings along the reference length */
+    struct solver_facts facts;   /* spacing h, particles, steps, seconds, ... */
+    double ns_per_particle_step; /* [ns], time loop alone */
+    double error[VERIFY_ERRORS];
+    double rate[VERIFY_ERRORS]; /* observed order from the level before to this one; NaN at the first */
+};
+
+struct verify_study {
+    const struct solver_scene *scene; /* as loaded for the finest level done */
+    const struct verify_truth *truth;
+    size_t level_count;
+    struct verify_level level[SOLVER_LEVELS];
+    struct solver_totals first, last; /* conserved quantities at the finest level, at the start and the end */
+    struct verify_gates gates;
+    /* Files written, "" where not. */
+    char record[VERIFY_PATH], picture[VERIFY_PATH], exact_picture[VERIFY_PATH];
+};
+
+/* Observed order log(e1 / e2) / log(h1 / h2), negative where the error grows. An error of zero at the finer level
+ * alone gives infinity; at both, or any value that is no error or spacing, NaN: no order was observed. */
+double verify_order(double e1, double h1, double e2, double h2);
+
+/* Adds a level that has n, facts and errors: fills in its time per particle-step and its observed orders. */
+void verify_study_add(struct verify_study *study, const struct verify_level *level);
+
+/* Judges the scene's gates on the finest level. */
+bool verify_study_judge(struct verify_study *study, struct solver_error *error);
+
+/* The published value of an error at n spacings; NaN if there is none. */
+double verify_published(const struct solver_scene *scene, int n, const char *error_name);
+
+/* Errors worth a column: p and P, those published, and those that a gate judges. Returns how many. Fails with 0
+ * (SOLVER_BAD_INPUT) on a published name that is no error. */
+size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], struct solver_error *error);
+
+#endif

@@ -1,0 +1,134 @@
+#include "verify/truth.h"
+
+#include "verify/suggest.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool verify_truth_line_holds(const struct oracle_check *line)
+{
+    return isfinite(line->residual) && line->residual <= line->bound;
+}
+
+static bool find_kind(const struct solver_scene *scene, const struct oracle_kind **kind, struct solver_error *error)
+{
+    if (scene->oracle[0] == '\0') {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: the scene answers to no oracle (key oracle.kind), so there is nothing to verify it "
+                           "against; assay run simulates it",
+                           scene->path);
+    }
+    *kind = oracle_find(scene->oracle);
+    if (*kind == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: oracle: there is no oracle \"%s\"; assay list shows those there are", scene->path,
+                           scene->oracle);
+    }
+    if ((*kind)->dim != scene->dim) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "%s: oracle: \"%s\" is %dD and the scene is %dD", scene->path,
+                           scene->oracle, (*kind)->dim, scene->dim);
+    }
+    return true;
+}
+
+/* "material.nu" is also meant by "nu". */
+static bool means(const char *key, const char *parameter)
+{
+    const char *dot = strrchr(parameter, '.');
+    return strcmp(key, parameter) == 0 || (dot != NULL && strcmp(key, dot + 1) == 0);
+}
+
+static bool refuse_unknown(const struct solver_scene *scene, const struct oracle_kind *kind, struct solver_error *error)
+{
+    for (size_t i = 0; i < scene->oracle_told_count; i++) {
+        const char *names[ORACLE_PARAMETERS];
+        size_t count = 0;
+        bool known = false;
+        for (const struct oracle_parameter *p = kind->parameter; p->name != NULL && count < ORACLE_PARAMETERS; p++) {
+            names[count++] = p->name;
+            known = known || means(scene->oracle_told[i].name, p->name);
+        }
+        if (!known) {
+            const char *meant = verify_suggest(scene->oracle_told[i].name, names, count);
+            return solver_fail(error, SOLVER_BAD_INPUT, "%s: oracle.%s: the oracle \"%s\" has no such parameter%s%s%s",
+                               scene->path, scene->oracle_told[i].name, kind->name,
+                               meant != NULL ? "; did you mean oracle." : "", meant != NULL ? meant : "",
+                               meant != NULL ? "?" : "; assay list oracles shows what it has");
+        }
+    }
+    return true;
+}
+
+static bool parameters(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error)
+{
+    for (const struct oracle_parameter *p = truth->kind->parameter; p->name != NULL; p++) {
+        size_t i = truth->parameter_count++;
+        if (i == ORACLE_PARAMETERS) {
+            return solver_fail(error, SOLVER_BAD_INPUT, "the oracle \"%s\" has more than %d parameters",
+                               truth->kind->name, (int)ORACLE_PARAMETERS);
+        }
+        for (size_t j = 0; j < scene->oracle_told_count; j++) {
+            if (means(scene->oracle_told[j].name, p->name)) {
+                truth->value[i] = scene->oracle_told[j].value;
+                truth->told[i] = true;
+            }
+        }
+        if (!truth->told[i] && !solver_scene_number(scene, p->name, &truth->value[i])) {
+            return solver_fail(error, SOLVER_BAD_INPUT,
+                               "%s: the oracle \"%s\" needs %s (%s) [%s]: give it under parameters or by oracle.%s",
+                               scene->path, truth->kind->name, p->name, p->help, p->unit, p->name);
+        }
+    }
+    return true;
+}
+
+static bool prove(struct verify_truth *truth, struct solver_error *error)
+{
+    size_t room = 64;
+    for (;;) {
+        struct oracle_check *grown = realloc(truth->check, room * sizeof *grown);
+        if (grown == NULL) {
+            return solver_fail(error, SOLVER_NO_MEMORY, "no memory for %zu lines of the oracle's self-check", room);
+        }
+        truth->check = grown;
+        truth->check_count = truth->kind->check(truth->oracle, truth->check, room);
+        if (truth->check_count <= room) {
+            break;
+        }
+        room = truth->check_count;
+    }
+    truth->proven = truth->check_count > 0;
+    for (size_t i = 0; i < truth->check_count; i++) {
+        truth->proven = truth->proven && verify_truth_line_holds(&truth->check[i]);
+    }
+    return true;
+}
+
+bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error)
+{
+    *truth = (struct verify_truth){.kind = NULL};
+    if (!find_kind(scene, &truth->kind, error) || !refuse_unknown(scene, truth->kind, error) ||
+        !parameters(scene, truth, error)) {
+        return false;
+    }
+    char why[ORACLE_WHY] = "";
+    if (!oracle_create(truth->kind, truth->value, &truth->oracle, why)) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "%s: oracle \"%s\": %s", scene->path, truth->kind->name, why);
+    }
+    if (!prove(truth, error)) {
+        verify_truth_free(truth);
+        return false;
+    }
+    return true;
+}
+
+void verify_truth_free(struct verify_truth *truth)
+{
+    if (truth->oracle != NULL) {
+        truth->kind->destroy(truth->oracle);
+    }
+    free(truth->check);
+    *truth = (struct verify_truth){.kind = NULL};
+}
