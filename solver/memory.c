@@ -1,0 +1,23 @@
+#include "solver/memory.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool solver_alloc(void **out, size_t count, size_t size, const char *what, struct solver_error *error)
+{
+    enum { ALIGNMENT = 64 };
+    *out = NULL;
+    if (count > (SIZE_MAX - ALIGNMENT) / size) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "%s: %zu x %zu bytes is more than can be addressed", what, count,
+                           size);
+    }
+    size_t bytes = (count * size + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
+    *out = aligned_alloc(ALIGNMENT, bytes);
+    if (*out == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for %.1f MiB; choose a smaller n", what,
+                           (double)bytes / 1048576.0);
+    }
+    memset(*out, 0, bytes);
+    return true;
+}

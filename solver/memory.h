@@ -1,0 +1,13 @@
+/* Allocation that says what it wanted the memory for. */
+#ifndef SOLVER_MEMORY_H
+#define SOLVER_MEMORY_H
+
+#include "solver/error.h"
+
+#include <stddef.h>
+
+/* count * size zeroed bytes, aligned to 64 for vector loads, into *out; free() releases. A count of 0 gives a valid
+ * pointer. On failure *out is NULL and the error says how much was asked for and for what. */
+bool solver_alloc(void **out, size_t count, size_t size, const char *what, struct solver_error *error);
+
+#endif

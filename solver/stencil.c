@@ -1,0 +1,230 @@
+#include "solver/stencil.h"
+
+#include "solver/memory.h"
+#include "solver/small.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct solver_stencil_builder builders[] = {
+    {.name = "sph",
+     .summary = "corrected kernel gradient of the Upwind-SPH paper, quadratic kernel; not closed, first order at best",
+     .degree = 1,
+     .boundary = 1,
+     .build = solver_stencil_sph},
+    {.name = "closed",
+     .summary = "kernel pair vectors projected once onto antisymmetry, closure and linear exactness; any cloud",
+     .antisymmetric = true,
+     .closed = true,
+     .degree = 1,
+     .boundary = 1,
+     .build = solver_stencil_closed},
+    {.name = "sbp2",
+     .summary = "summation-by-parts 2-1 along lattice lines; nearest neighbours only",
+     .antisymmetric = true,
+     .closed = true,
+     .lattice_only = true,
+     .degree = 2,
+     .boundary = 1,
+     .build = solver_stencil_sbp2},
+    {.name = "sbp4",
+     .summary = "summation-by-parts 4-2 along lattice lines; the most accurate on a box",
+     .antisymmetric = true,
+     .closed = true,
+     .lattice_only = true,
+     .degree = 4,
+     .boundary = 2,
+     .build = solver_stencil_sbp4},
+    {.name = NULL},
+};
+
+const struct solver_stencil_builder *solver_stencil_builders(void)
+{
+    return builders;
+}
+
+const struct solver_stencil_builder *solver_stencil_find(const char *name)
+{
+    for (const struct solver_stencil_builder *builder = builders; builder->name != NULL; builder++) {
+        if (strcmp(builder->name, name) == 0) {
+            return builder;
+        }
+    }
+    return NULL;
+}
+
+bool solver_stencil_reserve(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                            struct solver_error *error)
+{
+    size_t dim = (size_t)cloud->dim;
+    stencil->dim = cloud->dim;
+    stencil->count = cloud->count;
+    stencil->spacing = cloud->spacing;
+    stencil->pairs = stencil->graph.row[cloud->count];
+    stencil->face_point_count = cloud->face_point_count;
+    if (!solver_alloc((void **)&stencil->pair, stencil->pairs * (dim + 1), sizeof(double), "pair vectors", error) ||
+        !solver_alloc((void **)&stencil->row_sum, cloud->count * dim, sizeof(double), "pair vector sums", error) ||
+        !solver_alloc((void **)&stencil->V, cloud->count, sizeof(double), "stencil volumes", error) ||
+        !solver_alloc((void **)&stencil->face_point, cloud->face_point_count, sizeof *cloud->face_point, "face points",
+                      error)) {
+        return false;
+    }
+    memcpy(stencil->V, cloud->V, cloud->count * sizeof *cloud->V);
+    memcpy(stencil->face_point, cloud->face_point, cloud->face_point_count * sizeof *cloud->face_point);
+    return true;
+}
+
+/* Row sums, D_ab where it is not C_ab, and the face measure. NUMERICS: wide stencils have pairs with N . C < 0, which
+ * would feed energy in; they take no part in the dissipation. */
+static bool finish(struct solver_stencil *stencil, const struct solver_cloud *cloud, bool antisymmetric,
+                   struct solver_error *error)
+{
+    size_t dim = (size_t)stencil->dim;
+    if (!antisymmetric && !solver_alloc((void **)&stencil->transposed, stencil->pairs * dim, sizeof(double),
+                                        "transposed pair vectors", error)) {
+        return false;
+    }
+#pragma omp parallel for schedule(static)
+    for (size_t a = 0; a < stencil->count; a++) {
+        for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
+            size_t b = stencil->graph.neighbour[ab];
+            double *C = solver_stencil_C(stencil, ab);
+            const double *opposite = solver_stencil_C(stencil, solver_graph_find(&stencil->graph, b, a));
+            double along = 0.0;
+            double square = 0.0;
+            for (size_t axis = 0; axis < dim; axis++) {
+                double d = cloud->X[b * dim + axis] - cloud->X[a * dim + axis];
+                along += 0.5 * (C[axis] - opposite[axis]) * d;
+                square += d * d;
+                stencil->row_sum[a * dim + axis] += C[axis];
+                if (!antisymmetric) {
+                    stencil->transposed[ab * dim + axis] = -opposite[axis];
+                }
+            }
+            C[dim] = fmax(0.0, along) / sqrt(square);
+        }
+    }
+    return true;
+}
+
+bool solver_stencil_create(const struct solver_stencil_builder *builder, const struct solver_cloud *cloud,
+                           double support, struct solver_stencil **out, struct solver_error *error)
+{
+    struct solver_stencil *stencil = NULL;
+    *out = NULL;
+    if (!solver_alloc((void **)&stencil, 1, sizeof *stencil, "stencil", error)) {
+        return false;
+    }
+    if (!builder->build(cloud, support, stencil, error) || !finish(stencil, cloud, builder->antisymmetric, error)) {
+        solver_stencil_free(stencil);
+        return false;
+    }
+    *out = stencil;
+    return true;
+}
+
+void solver_stencil_free(struct solver_stencil *stencil)
+{
+    if (stencil == NULL) {
+        return;
+    }
+    solver_graph_free(&stencil->graph);
+    free(stencil->pair);
+    free(stencil->transposed);
+    free(stencil->row_sum);
+    free(stencil->least_squares);
+    free(stencil->V);
+    free(stencil->face_point);
+    free(stencil);
+}
+
+bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                                      struct solver_error *error)
+{
+    size_t dim = (size_t)stencil->dim;
+    if (!solver_alloc((void **)&stencil->least_squares, stencil->pairs * dim, sizeof(double), "least-squares gradient",
+                      error)) {
+        return false;
+    }
+    for (size_t a = 0; a < stencil->count; a++) {
+        double moment[4][4] = {{0}};
+        for (int pass = 0; pass < 2; pass++) {
+            for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
+                double d[3] = {0};
+                double square = 0.0;
+                for (size_t axis = 0; axis < dim; axis++) {
+                    d[axis] = cloud->X[stencil->graph.neighbour[ab] * dim + axis] - cloud->X[a * dim + axis];
+                    square += d[axis] * d[axis];
+                }
+                for (size_t i = 0; i < dim; i++) {
+                    for (size_t j = 0; j < dim; j++) {
+                        if (pass == 0) {
+                            moment[i][j] += d[i] * d[j] / square;
+                        } else {
+                            stencil->least_squares[ab * dim + i] += moment[i][j] * d[j] / square;
+                        }
+                    }
+                }
+            }
+            if (pass == 0 && !solver_small_invert(dim, moment)) {
+                return solver_fail(error, SOLVER_BAD_INPUT, "least-squares gradient: neighbours of particle %zu lie "
+                                   "in a plane; choose a larger support", a);
+            }
+        }
+    }
+    return true;
+}
+
+size_t solver_stencil_bytes(const struct solver_stencil *stencil)
+{
+    size_t dim = (size_t)stencil->dim;
+    size_t per_pair = sizeof *stencil->graph.neighbour + (dim + 1) * sizeof(double) +
+                      (stencil->transposed != NULL ? dim * sizeof(double) : 0) +
+                      (stencil->least_squares != NULL ? dim * sizeof(double) : 0);
+    size_t per_particle = sizeof *stencil->graph.row + (dim + 1) * sizeof(double);
+    return stencil->pairs * per_pair + stencil->count * per_particle +
+           stencil->face_point_count * sizeof *stencil->face_point;
+}
+
+struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil *stencil,
+                                                     const struct solver_cloud *cloud)
+{
+    size_t dim = (size_t)stencil->dim;
+    struct solver_stencil_residuals worst = {0};
+    double largest = 0.0;
+    for (size_t ab = 0; ab < stencil->pairs; ab++) {
+        for (size_t axis = 0; axis < dim; axis++) {
+            largest = fmax(largest, fabs(solver_stencil_C(stencil, ab)[axis]));
+        }
+    }
+    size_t next_face = 0;
+    for (size_t a = 0; a < stencil->count; a++) {
+        double closure[3] = {0};
+        double linear[3][3] = {{0}};
+        for (; next_face < stencil->face_point_count && stencil->face_point[next_face].particle == a; next_face++) {
+            for (size_t axis = 0; axis < dim; axis++) {
+                closure[axis] += stencil->face_point[next_face].area[axis];
+            }
+        }
+        for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
+            size_t b = stencil->graph.neighbour[ab];
+            const double *C = solver_stencil_C(stencil, ab);
+            const double *opposite = solver_stencil_C(stencil, solver_graph_find(&stencil->graph, b, a));
+            for (size_t axis = 0; axis < dim; axis++) {
+                worst.antisymmetry = fmax(worst.antisymmetry, fabs(C[axis] + opposite[axis]) / largest);
+                closure[axis] += C[axis];
+                for (size_t i = 0; i < dim; i++) {
+                    linear[i][axis] += 0.5 * (cloud->X[b * dim + i] - cloud->X[a * dim + i]) * C[axis] / stencil->V[a];
+                }
+            }
+        }
+        for (size_t i = 0; i < dim; i++) {
+            worst.closure = fmax(worst.closure, fabs(closure[i]) / largest);
+            for (size_t axis = 0; axis < dim; axis++) {
+                worst.linear = fmax(worst.linear, fabs(linear[i][axis] - (i == axis ? 1.0 : 0.0)));
+            }
+        }
+    }
+    return worst;
+}

@@ -1,0 +1,82 @@
+/* A stencil: neighbour graph, pair vectors C_ab, volumes and boundary areas. Schemes do not know who built it.
+ *
+ *   gradient:    V_a grad f_a  = 1/2 sum_b (f_b - f_a) C_ab
+ *   divergence:  V_a (Div P)_a = 1/2 (sum_b P_b D_ab + P_a sum_b C_ab) + traction terms,   D_ab = -C_ba
+ *
+ * The divergence is the negative adjoint of the gradient whatever C is (000_e9ec29e1bde7947d.txt eq. 18, 20, 21), so
+ * forces between two particles are always equal and opposite. With antisymmetric C, D = C; with closed C
+ * (sum_b C_ab = -B_a, the particle's boundary area vector) a constant stress gives no force; with
+ * 1/2 sum_b (X_b - X_a) (x) C_ab = V_a I a linear field is differentiated exactly. */
+#ifndef SOLVER_STENCIL_H
+#define SOLVER_STENCIL_H
+
+#include "solver/cloud.h"
+#include "solver/graph.h"
+
+struct solver_stencil {
+    int dim;
+    size_t count, pairs;
+    double spacing;            /* [m] */
+    struct solver_graph graph;
+    double *pair;              /* [pairs][dim + 1]: C_ab, then the face measure of the upwind dissipation
+                                  max(0, (C_ab - C_ba)/2 . N_ab); one record, so that a pair is one place in memory */
+    double *transposed;        /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
+    double *row_sum;           /* [count][dim] sum_b C_ab */
+    double *least_squares;     /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
+                                  (000_e9ec29e1bde7947d.txt eq. 37); NULL unless asked for */
+    double *V;                 /* [count] [m^dim] */
+    size_t face_point_count;
+    struct solver_face_point *face_point;
+};
+
+struct solver_stencil_builder {
+    const char *name, *summary;
+    bool antisymmetric, closed, lattice_only;
+    int degree;   /* polynomials differentiated exactly away from the boundary */
+    int boundary; /* the same at the boundary */
+    bool (*build)(const struct solver_cloud *cloud, double support, struct solver_stencil *stencil,
+                  struct solver_error *error);
+};
+
+/* The table, ends with a NULL name. */
+const struct solver_stencil_builder *solver_stencil_builders(void);
+const struct solver_stencil_builder *solver_stencil_find(const char *name);
+
+/* `support`: radius over spacing, for builders that have one. */
+bool solver_stencil_create(const struct solver_stencil_builder *builder, const struct solver_cloud *cloud,
+                           double support, struct solver_stencil **stencil, struct solver_error *error);
+void solver_stencil_free(struct solver_stencil *stencil);
+/* Adds the weights of the least-squares gradient. */
+bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                                      struct solver_error *error);
+size_t solver_stencil_bytes(const struct solver_stencil *stencil);
+
+/* How well a stencil keeps its promises: largest violations over all particles, each relative to the size of what it
+ * should be. */
+struct solver_stencil_residuals {
+    double antisymmetry; /* |C_ab + C_ba| / max |C| */
+    double closure;      /* |sum_b C_ab + B_a| / max |C| */
+    double linear;       /* |1/2 sum_b (X_b - X_a) (x) C_ab / V_a - I| */
+};
+struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil *stencil,
+                                                     const struct solver_cloud *cloud);
+
+/* For builders: reserves everything but the graph, which must be there; copies volumes and face points of the cloud. */
+bool solver_stencil_reserve(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                            struct solver_error *error);
+/* C_ab of a pair. */
+static inline double *solver_stencil_C(const struct solver_stencil *stencil, size_t pair)
+{
+    return stencil->pair + pair * (size_t)(stencil->dim + 1);
+}
+
+bool solver_stencil_sph(const struct solver_cloud *cloud, double support, struct solver_stencil *stencil,
+                        struct solver_error *error);
+bool solver_stencil_closed(const struct solver_cloud *cloud, double support, struct solver_stencil *stencil,
+                           struct solver_error *error);
+bool solver_stencil_sbp2(const struct solver_cloud *cloud, double support, struct solver_stencil *stencil,
+                         struct solver_error *error);
+bool solver_stencil_sbp4(const struct solver_cloud *cloud, double support, struct solver_stencil *stencil,
+                         struct solver_error *error);
+
+#endif
