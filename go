@@ -25,19 +25,18 @@ elsewhere="On systems without Debian's packages, install these with their header
 
 # Prints those of the named packages that are not installed.
 missing() {
-  local installed
-  installed=" $(dpkg-query -W -f '${db:Status-Status}:${Package}\n' "$@" 2>/dev/null |
-    sed -n 's/^installed://p' | tr '\n' ' ')"
-  local name
+  local installed name
+  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true) # fails on unknown names
   for name in "$@"; do
-    [[ $installed == *" $name "* ]] || printf '%s\n' "$name"
+    [[ $'\n'$installed$'\n' == *$'\n'"installed $name"$'\n'* ]] || printf '%s\n' "$name"
   done
 }
 
 install_missing() {
   local wanted log=$here/build/packages.log root=()
-  mapfile -t wanted < <(missing "$@")
-  ((${#wanted[@]})) || return 0
+  wanted=$(missing "$@")
+  [[ $wanted ]] || return 0
+  mapfile -t wanted <<<"$wanted"
   local command="apt-get update && apt-get install -y --no-install-recommends ${wanted[*]}"
   if ((EUID != 0)); then
     if command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
@@ -94,7 +93,7 @@ if command -v flock >/dev/null && ! flock -n 9; then
 fi
 testing=false
 [[ ${1-} != test ]] || testing=true
-if command -v dpkg-query >/dev/null; then
+if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
   $testing && packages+=("${test_packages[@]}")
   install_missing "${packages[@]}"
 fi
