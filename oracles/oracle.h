@@ -59,7 +59,8 @@ struct oracle_kind {
 const struct oracle_kind *const *oracle_kinds(void);
 /* NULL if there is none of that name. */
 const struct oracle_kind *oracle_find(const char *name);
-/* Checks that every value is finite and admissible, then creates. The kind's destroy frees. */
+/* Checks that every value is finite and admissible, then creates. The kind's destroy frees. On failure *oracle is NULL
+ * and `why` names the parameter, its value, what it must be and a value that would do. */
 bool oracle_create(const struct oracle_kind *kind, const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
 
 /* Whether a line of a self-check holds: a NaN holds nothing. */

@@ -1,0 +1,64 @@
+/* What every oracle can be asked without knowing its formulas: do its fields satisfy the laws they stand for?
+ * Derivatives are taken of the fields as they are given, by central differences of eighth order with a step of
+ * SELF_CHECK_STEP radians of the shortest wave: their truncation error is SELF_CHECK_STEP^8 / 630 = 6e-14 and stays
+ * below the round-off, from which the bounds are made. An oracle's `check` fills a struct self_check, calls
+ * self_check_differentials first, and then those of the others that apply to it. */
+#ifndef ORACLES_SELF_CHECK_H
+#define ORACLES_SELF_CHECK_H
+
+#include "oracles/oracle.h"
+
+#define SELF_CHECK_STEP 0.05
+
+/* Largest magnitudes over the samples: what residuals are measured against, so that a component that is zero by
+ * symmetry is held to the size of the others. */
+struct self_check_scale {
+    double u, v, gradient; /* [m], [m/s], [-] */
+    double stress;         /* (|lambda| + 2 mu) gradient [Pa]: terms may cancel in P, their round-off does not */
+};
+
+struct self_check {
+    const struct oracle_kind *kind;
+    const struct oracle *oracle;
+    double lower[3], upper[3];  /* the body, a box; axes from kind->dim on are not used [m] */
+    double t_end;               /* samples lie in [0, t_end] [s] */
+    double wave_number;         /* largest along any axis [rad/m] */
+    double frequency;           /* highest [rad/s] */
+    double lambda, mu, rho;     /* [Pa], [Pa], [kg/m^3] */
+    struct oracle_check *line;  /* [size] lines to fill */
+    size_t size, count;         /* room for lines, and lines there are */
+    struct self_check_scale of; /* set by self_check_differentials */
+};
+
+/* Appends a line. */
+void self_check_add(struct self_check *check, const char *law, double residual, double bound);
+/* Point i of a fixed low-discrepancy sequence inside the body and its time, far enough from their ends for
+ * the derivatives to stay within. */
+void self_check_sample(const struct self_check *check, size_t i, double X[3], double *t);
+/* Derivative of every field along axis 0, 1, 2 (X, Y, Z) or 3 (t). */
+void self_check_derivative(const struct self_check *check, const double X[3], double t, int axis,
+                           struct oracle_state *derivative);
+/* Relative error of two evaluations of the same field at the same point: round-off times the phase, in radians, that
+ * the fastest wave has run through. */
+double self_check_round_off(const struct self_check *check);
+
+/* v = du/dt, p = rho v, F = I + du/dX, P = lambda tr(e) I + 2 mu e with e the symmetric du/dX, dp/dt = Div P. Together
+ * they are rho u_tt = Div P(u); first derivatives alone keep the bound 1/SELF_CHECK_STEP lower than u_tt would. */
+void self_check_differentials(struct self_check *check);
+
+/* Initial displacement [m] and velocity [m/s] at X, as the source states them. */
+typedef void self_check_initial(const struct oracle *oracle, const double X[3], double u[3], double v[3]);
+void self_check_starts(struct self_check *check, self_check_initial *initial);
+
+/* One face of the box: `held` components of the displacement are zero, and of the traction those that are not. */
+void self_check_face(struct self_check *check, int axis, bool upper, const bool held[3]);
+
+/* Every field against a second evaluation that shares no formula with the first. */
+typedef void self_check_second(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state);
+void self_check_compare(struct self_check *check, self_check_second *second);
+
+/* Kinetic and strain energy against Gauss quadrature of p.v/2 and of the complementary energy of P (e as P has it, with
+ * no unit matrix to subtract), and their sum against its first value: nothing feeds or drains the body. */
+void self_check_energies(struct self_check *check);
+
+#endif
