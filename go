@@ -84,9 +84,9 @@ build() {
   fi
 }
 
-mkdir -p -- "$here/build" || fail "cannot write to $here, where the build would go"
 # One at a time; the lock is given back before the program starts.
-exec 9>"$here/build/.lock"
+{ mkdir -p -- "$here/build" && exec 9>"$here/build/.lock"; } 2>/dev/null ||
+  fail "cannot write to $here/build, where the build goes: give this user that folder, or copy the checkout"
 if command -v flock >/dev/null && ! flock -n 9; then
   say "waiting for another call of ./go to finish building"
   flock 9
