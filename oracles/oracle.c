@@ -40,10 +40,10 @@ static void describe_interval(const struct oracle_parameter *parameter, char *te
 {
     char lower[64] = "", upper[64] = "";
     if (isfinite(parameter->lower)) {
-        (void)snprintf(lower, sizeof lower, ", %s %.17g", parameter->lower_open ? ">" : ">=", parameter->lower);
+        (void)snprintf(lower, sizeof lower, ", %s %.15g", parameter->lower_open ? ">" : ">=", parameter->lower);
     }
     if (isfinite(parameter->upper)) {
-        (void)snprintf(upper, sizeof upper, "%s %s %.17g", lower[0] != '\0' ? " and" : ",",
+        (void)snprintf(upper, sizeof upper, "%s %s %.15g", lower[0] != '\0' ? " and" : ",",
                        parameter->upper_open ? "<" : "<=", parameter->upper);
     }
     (void)snprintf(text, size, "a finite number%s%s", lower, upper);
@@ -58,7 +58,7 @@ bool oracle_create(const struct oracle_kind *kind, const double *value, struct o
         if (!admissible(parameter, value[i])) {
             char interval[160];
             describe_interval(parameter, interval, sizeof interval);
-            (void)snprintf(why, ORACLE_WHY, "%s = %.17g [%s], but it must be %s (%s); %s = %g would do",
+            (void)snprintf(why, ORACLE_WHY, "%s = %.15g [%s], but it must be %s (%s); %s = %g would do",
                            parameter->name, value[i], parameter->unit, interval, parameter->help, parameter->name,
                            parameter->typical);
             return false;

@@ -111,13 +111,14 @@ void self_check_derivative(const struct self_check *check, const double X[3], do
     memcpy(derivative, sum, sizeof *derivative);
 }
 
-/* P = lambda tr(e) I + 2 mu e, e = (G + G^T)/2. */
+/* P = K tr(e) I + 2 mu dev(e), e = (G + G^T)/2. */
 static void hooke(const struct self_check *check, const double G[9], double P[9])
 {
     double trace = G[0] + G[4] + G[8];
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
-            P[3 * i + j] = check->mu * (G[3 * i + j] + G[3 * j + i]) + (i == j ? check->lambda * trace : 0);
+            P[3 * i + j] =
+                check->mu * (G[3 * i + j] + G[3 * j + i]) + (i == j ? (check->bulk - 2 * check->mu / 3) * trace : 0);
         }
     }
 }
@@ -129,10 +130,10 @@ static void displacement_gradient(const double F[9], double G[9])
     }
 }
 
-/* F is stored with its unit matrix, whose round-off hides that much of a small gradient. */
+/* F is stored with its unit matrix, whose round-off hides that much of a small gradient, in each of two evaluations. */
 static double gradient_scale(const struct self_check *check, double bound)
 {
-    return check->of.gradient + DBL_EPSILON / bound;
+    return check->of.gradient + 2 * DBL_EPSILON / bound;
 }
 
 /* The five laws at one point, added to their distances. */
@@ -172,7 +173,7 @@ void self_check_differentials(struct self_check *check)
     for (size_t i = 0; i < SAMPLES; i++) {
         differentiate(check, i, law);
     }
-    check->of.stress = (fabs(check->lambda) + 2 * check->mu) * check->of.gradient;
+    check->of.stress = (check->bulk + 4 * check->mu / 3) * check->of.gradient;
     double bound = derivative_bound(check);
     self_check_add(check, "v = du/dt", relative(law[0].error, law[0].size), bound);
     self_check_add(check, "p = rho v", relative(law[1].error, law[1].size), 4 * DBL_EPSILON);
@@ -257,12 +258,12 @@ static struct energies density(const struct self_check *check, const double X[3]
     struct oracle_state state;
     struct energies e = {0};
     evaluate(check, X, t, &state);
-    double trace = state.P[0] + state.P[4] + state.P[8], bulk = check->lambda + 2 * check->mu / 3;
+    double trace = state.P[0] + state.P[4] + state.P[8];
     for (int i = 0; i < 9; i++) {
         double dev = state.P[i] - (i % 4 == 0 ? trace / 3 : 0);
         e.strain += dev / (4 * check->mu) * dev;
     }
-    e.strain += trace / (18 * bulk) * trace;
+    e.strain += trace / (18 * check->bulk) * trace;
     for (int i = 0; i < 3; i++) {
         e.kinetic += state.p[i] * state.v[i] / 2;
     }

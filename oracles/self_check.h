@@ -14,7 +14,7 @@
  * symmetry is held to the size of the others. */
 struct self_check_scale {
     double u, v, gradient; /* [m], [m/s], [-] */
-    double stress;         /* (|lambda| + 2 mu) gradient [Pa]: terms may cancel in P, their round-off does not */
+    double stress;         /* p-wave modulus times gradient [Pa]: terms may cancel in P, their round-off does not */
 };
 
 struct self_check {
@@ -24,7 +24,7 @@ struct self_check {
     double t_end;               /* samples lie in [0, t_end] [s] */
     double wave_number;         /* largest along any axis [rad/m] */
     double frequency;           /* highest [rad/s] */
-    double lambda, mu, rho;     /* [Pa], [Pa], [kg/m^3] */
+    double bulk, mu, rho;       /* [Pa], [Pa], [kg/m^3] */
     struct oracle_check *line;  /* [size] lines to fill */
     size_t size, count;         /* room for lines, and lines there are */
     struct self_check_scale of; /* set by self_check_differentials */
@@ -42,7 +42,7 @@ void self_check_derivative(const struct self_check *check, const double X[3], do
  * the fastest wave has run through. */
 double self_check_round_off(const struct self_check *check);
 
-/* v = du/dt, p = rho v, F = I + du/dX, P = lambda tr(e) I + 2 mu e with e the symmetric du/dX, dp/dt = Div P. Together
+/* v = du/dt, p = rho v, F = I + du/dX, P = K tr(e) I + 2 mu dev(e) with e the symmetric du/dX, dp/dt = Div P. Together
  * they are rho u_tt = Div P(u); first derivatives alone keep the bound 1/SELF_CHECK_STEP lower than u_tt would. */
 void self_check_differentials(struct self_check *check);
 

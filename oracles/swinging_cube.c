@@ -132,7 +132,7 @@ static bool fits(const struct oracle *o, char why[ORACLE_WHY])
         if (!representable(size[i]) && !(at_rest && i >= 4 && size[i] == 0)) {
             (void)snprintf(why, ORACLE_WHY,
                            "U0 = %g m, A = %g, B = %g, C = %g, material.E = %g Pa, material.nu = "
-                           "%.17g, material.rho = %g kg/m^3 give moduli, frequencies, fields or energies outside the "
+                           "%.15g, material.rho = %g kg/m^3 give moduli, frequencies, fields or energies outside the "
                            "range of double precision; choose values nearer to 1",
                            o->given.U0, o->given.A[0], o->given.A[1], o->given.A[2], o->given.E, o->given.nu,
                            o->given.rho);
@@ -174,6 +174,22 @@ static void destroy(struct oracle *oracle)
     free(oracle);
 }
 
+/* By way of the bulk modulus, so that a slip in the oracle's own constants is seen; 1 - 2 nu and 1 + nu are exact near
+ * their zeros. */
+struct moduli {
+    double bulk, mu; /* [Pa] */
+};
+
+static struct moduli moduli(const struct given *g)
+{
+    return (struct moduli){.bulk = g->E / (3 * (1 - 2 * g->nu)), .mu = g->E / (2 * (1 + g->nu))};
+}
+
+static double p_modulus(const struct moduli *of)
+{
+    return of->bulk + 4 * of->mu / 3;
+}
+
 /* The second evaluation, d'Alembert's: s1 c2 c3 is the mean of d1 sin(k d.X) over the eight d = (+-1, +-1, +-1), so the
  * initial shape is a sum of plane waves along n = d / sqrt(3) with polarisation (d1 A, d2 B, d3 C) U0. What of it lies
  * along n runs with cp, what lies across with cs, one half forwards and one half backwards. */
@@ -182,7 +198,7 @@ struct plane_wave {
     double speed;                        /* signed [m/s] */
 };
 
-static void add_plane_wave(const struct plane_wave *w, const double modulus[2], double rho, const double X[3], double t,
+static void add_plane_wave(const struct plane_wave *w, const struct moduli *of, double rho, const double X[3], double t,
                            struct oracle_state *sum)
 {
     double kappa = sqrt(3.0) * PI / (2 * SIDE);
@@ -192,26 +208,18 @@ static void add_plane_wave(const struct plane_wave *w, const double modulus[2], 
         sum->u[i] += w->polarisation[i] * sin(phase);
         sum->v[i] -= w->polarisation[i] * w->speed * slope;
         sum->p[i] -= rho * w->polarisation[i] * w->speed * slope;
-        sum->P[4 * i] += modulus[0] * w->along * slope;
+        sum->P[4 * i] += (of->bulk - 2 * of->mu / 3) * w->along * slope;
         for (int j = 0; j < 3; j++) {
             sum->F[3 * i + j] += w->polarisation[i] * w->n[j] * slope;
-            sum->P[3 * i + j] += modulus[1] * (w->polarisation[i] * w->n[j] + w->polarisation[j] * w->n[i]) * slope;
+            sum->P[3 * i + j] += of->mu * (w->polarisation[i] * w->n[j] + w->polarisation[j] * w->n[i]) * slope;
         }
     }
-}
-
-/* lambda and mu by way of the bulk modulus, so that a slip in the oracle's own is seen. */
-static void moduli(const struct given *g, double modulus[2])
-{
-    modulus[1] = g->E / (2 + 2 * g->nu);
-    modulus[0] = g->E / (3 - 6 * g->nu) - 2 * modulus[1] / 3;
 }
 
 static void plane_waves(const struct oracle *oracle, const double X[3], double t, struct oracle_state *sum)
 {
     const struct given *g = &oracle->given;
-    double modulus[2];
-    moduli(g, modulus);
+    struct moduli of = moduli(g);
     memset(sum, 0, sizeof *sum);
     for (int wave = 0; wave < 32; wave++) {
         bool backwards = wave & 1, transverse = wave & 2;
@@ -227,8 +235,8 @@ static void plane_waves(const struct oracle *oracle, const double X[3], double t
             w.polarisation[i] = transverse ? w.polarisation[i] - along * w.n[i] : along * w.n[i];
         }
         w.along = transverse ? 0 : along;
-        w.speed = sqrt((transverse ? modulus[1] : modulus[0] + 2 * modulus[1]) / g->rho) * (backwards ? -1 : 1);
-        add_plane_wave(&w, modulus, g->rho, X, t, sum);
+        w.speed = sqrt((transverse ? of.mu : p_modulus(&of)) / g->rho) * (backwards ? -1 : 1);
+        add_plane_wave(&w, &of, g->rho, X, t, sum);
     }
     for (int i = 0; i < 3; i++) {
         sum->F[4 * i] += 1;
@@ -248,18 +256,16 @@ static void initial(const struct oracle *oracle, const double X[3], double u[3],
 static size_t check(const struct oracle_kind *kind, const struct oracle *oracle, struct oracle_check *line, size_t size)
 {
     const struct given *g = &oracle->given;
-    double modulus[2];
-    moduli(g, modulus);
+    struct moduli of = moduli(g);
     double kappa = sqrt(3.0) * PI / (2 * SIDE);
     struct self_check laws = {.kind = kind,
                               .oracle = oracle,
                               .upper = {SIDE, SIDE, SIDE},
                               .wave_number = PI / (2 * SIDE),
-                              .frequency = kappa * sqrt((modulus[0] + 2 * modulus[1]) / g->rho),
-                              .t_end =
-                                  4 * PI / (kappa * sqrt(modulus[1] / g->rho)), /* two periods of the slower wave */
-                              .lambda = modulus[0],
-                              .mu = modulus[1],
+                              .frequency = kappa * sqrt(p_modulus(&of) / g->rho),
+                              .t_end = 4 * PI / (kappa * sqrt(of.mu / g->rho)), /* two periods of the slower wave */
+                              .bulk = of.bulk,
+                              .mu = of.mu,
                               .rho = g->rho,
                               .line = line,
                               .size = size};
