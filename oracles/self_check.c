@@ -277,7 +277,7 @@ static struct energies quadrature(const struct self_check *check, double X[3], d
                                    0.9739065285171717};
     static const double weight[5] = {0.2955242247147529, 0.2692667193099963, 0.2190863625159820, 0.1494513491505806,
                                      0.0666713443086881};
-    if (axis == check->kind->dim) {
+    if (axis == 3 || axis == check->kind->dim) {
         return density(check, X, t);
     }
     struct energies sum = {0};
