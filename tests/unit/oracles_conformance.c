@@ -1,0 +1,268 @@
+/* What every oracle must do, asked of every oracle there is: describe itself, refuse bad values, pass its own check,
+ * and have a check that sees every single component of every field, a NaN and the energies being off. */
+#include "oracles/oracle.h"
+#include "tests/unit/unit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { NUMBERS = sizeof(struct oracle_state) / sizeof(double) };
+
+/* One component of the state spoiled, everywhere: x (1 + factor) + shift; -1 for none. */
+static struct {
+    const struct oracle_kind *kind;
+    int component;
+    double factor, shift;
+    double kinetic_factor, strain_factor;
+    double largest[NUMBERS]; /* magnitudes seen, without the unit matrix of F */
+} spoil;
+
+static const int UNIT_MATRIX = 9; /* F starts after u, v, p */
+
+static void spoiled_state(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state)
+{
+    double n[NUMBERS];
+    spoil.kind->state(oracle, X, t, state);
+    memcpy(n, state, sizeof n);
+    for (int i = 0; i < NUMBERS; i++) {
+        double unit = i >= UNIT_MATRIX && i < UNIT_MATRIX + 9 && (i - UNIT_MATRIX) % 4 == 0 ? 1 : 0;
+        spoil.largest[i] = fmax(spoil.largest[i], fabs(n[i] - unit));
+        if (i == spoil.component) {
+            n[i] = unit + (n[i] - unit) * (1 + spoil.factor) + spoil.shift;
+        }
+    }
+    memcpy(state, n, sizeof n);
+}
+
+static void spoiled_energy(const struct oracle *oracle, double t, double *kinetic, double *strain)
+{
+    spoil.kind->energy(oracle, t, kinetic, strain);
+    *kinetic *= 1 + spoil.kinetic_factor;
+    *strain *= 1 + spoil.strain_factor;
+}
+
+static struct oracle *create_typical(const struct oracle_kind *kind)
+{
+    double value[ORACLE_PARAMETERS];
+    char why[ORACLE_WHY] = "";
+    struct oracle *oracle = NULL;
+    for (size_t i = 0; kind->parameter[i].name != NULL; i++) {
+        value[i] = kind->parameter[i].typical;
+    }
+    bool created = oracle_create(kind, value, &oracle, why);
+    if (!created) {
+        printf("%s: %s\n", kind->name, why);
+    }
+    CU_ASSERT_TRUE_FATAL(created);
+    return oracle;
+}
+
+/* Starts an unspoiled copy of a kind that goes through the spoiling functions. */
+static struct oracle_kind copy_of(const struct oracle_kind *kind)
+{
+    memset(&spoil, 0, sizeof spoil);
+    spoil.kind = kind;
+    spoil.component = -1;
+    struct oracle_kind copy = *kind;
+    copy.state = spoiled_state;
+    copy.energy = spoiled_energy;
+    return copy;
+}
+
+static bool all_finite(const double *value, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!isfinite(value[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void describes_itself(void)
+{
+    size_t count = 0;
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++, count++) {
+        const struct oracle_kind *kind = *k;
+        CU_ASSERT_TRUE(strlen(kind->name) > 0 && strlen(kind->summary) > 0 && strlen(kind->source) > 0);
+        CU_ASSERT_PTR_EQUAL(oracle_find(kind->name), kind); /* so that no two have one name */
+        CU_ASSERT_TRUE(kind->dim >= 1 && kind->dim <= 3);
+        size_t parameters = 0;
+        for (const struct oracle_parameter *p = kind->parameter; p->name != NULL; p++, parameters++) {
+            CU_ASSERT_TRUE(strlen(p->name) > 0 && strlen(p->unit) > 0 && strlen(p->help) > 0);
+            CU_ASSERT_TRUE(p->lower < p->upper && isfinite(p->typical));
+            for (const struct oracle_parameter *q = kind->parameter; q != p; q++) {
+                CU_ASSERT_STRING_NOT_EQUAL(p->name, q->name);
+            }
+        }
+        CU_ASSERT_TRUE(parameters <= ORACLE_PARAMETERS);
+    }
+    CU_ASSERT_TRUE(count > 0);
+}
+
+static void refuses_each_bad_value(void)
+{
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        const struct oracle_parameter *parameter = (*k)->parameter;
+        for (size_t bad = 0; parameter[bad].name != NULL; bad++) {
+            double wrong[] = {NAN, INFINITY, -INFINITY, nextafter(parameter[bad].lower, -INFINITY),
+                              nextafter(parameter[bad].upper, INFINITY)};
+            for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+                double value[ORACLE_PARAMETERS];
+                char why[ORACLE_WHY] = "";
+                struct oracle *oracle = (struct oracle *)1;
+                if (fabs(wrong[w]) > 1e308 && isfinite(wrong[w])) {
+                    continue; /* there is nothing beyond an end that is infinite */
+                }
+                for (size_t i = 0; parameter[i].name != NULL; i++) {
+                    value[i] = i == bad ? wrong[w] : parameter[i].typical;
+                }
+                CU_ASSERT_FALSE_FATAL(oracle_create(*k, value, &oracle, why));
+                CU_ASSERT_PTR_NULL(oracle);
+                CU_ASSERT_TRUE(strncmp(why, parameter[bad].name, strlen(parameter[bad].name)) == 0);
+                CU_ASSERT_TRUE(strlen(why) < ORACLE_WHY - 1); /* not cut short */
+            }
+        }
+    }
+}
+
+static void answers_repeatably_with_finite_numbers(void)
+{
+    static const double place[][3] = {{0, 0, 0}, {0.3, 0.4, 0.5}, {1, 1, 1}};
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        struct oracle *oracle = create_typical(*k), *again = create_typical(*k);
+        for (size_t i = 0; i < sizeof place / sizeof *place; i++) {
+            struct oracle_state a, b;
+            double n[NUMBERS], energy[4];
+            memset(&a, 0x55, sizeof a);
+            memset(&b, 0xaa, sizeof b); /* what a kind leaves unset differs */
+            (*k)->state(oracle, place[i], 1e-3, &a);
+            (*k)->state(again, place[i], 1e-3, &b);
+            memcpy(n, &a, sizeof n);
+            CU_ASSERT_TRUE(all_finite(n, NUMBERS));
+            CU_ASSERT_EQUAL(memcmp(&a, &b, sizeof a), 0);
+            (*k)->energy(oracle, 1e-3, &energy[0], &energy[1]);
+            (*k)->energy(again, 1e-3, &energy[2], &energy[3]);
+            CU_ASSERT_TRUE(all_finite(energy, 4) && energy[0] >= 0 && energy[1] >= 0);
+            CU_ASSERT_TRUE(energy[0] == energy[2] && energy[1] == energy[3]);
+        }
+        (*k)->destroy(oracle);
+        (*k)->destroy(again);
+    }
+}
+
+static void passes_its_own_check(void)
+{
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        struct oracle *oracle = create_typical(*k);
+        struct oracle_check line[ORACLE_LAWS];
+        size_t count = 0;
+        CU_ASSERT_TRUE(oracle_self_check(*k, oracle, line, &count));
+        CU_ASSERT_TRUE_FATAL(count > 0);
+        for (size_t i = 0; i < count; i++) {
+            CU_ASSERT_TRUE(strlen(line[i].law) > 0 && line[i].residual >= 0 && line[i].bound > 0);
+            CU_ASSERT_TRUE(line[i].bound < 1e-6); /* a bound that nothing can miss proves nothing */
+            for (size_t j = 0; j < i; j++) {
+                CU_ASSERT_STRING_NOT_EQUAL(line[i].law, line[j].law);
+            }
+        }
+        (*k)->destroy(oracle);
+    }
+}
+
+static void fills_no_more_lines_than_there_is_room_for(void)
+{
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        struct oracle *oracle = create_typical(*k);
+        struct oracle_check line[3] = {{.law = "a"}, {.law = "b"}, {.law = "c"}};
+        size_t count = (*k)->check(*k, oracle, NULL, 0);
+        CU_ASSERT_EQUAL((*k)->check(*k, oracle, line, 1), count);
+        CU_ASSERT_STRING_NOT_EQUAL(line[0].law, "a");
+        CU_ASSERT_STRING_EQUAL(line[1].law, "b");
+        (*k)->destroy(oracle);
+    }
+}
+
+/* Notes which lines fail; returns whether any does. */
+static bool caught(const struct oracle_kind *kind, const struct oracle *oracle, bool failed[ORACLE_LAWS])
+{
+    struct oracle_check line[ORACLE_LAWS];
+    size_t count = 0;
+    bool holds = oracle_self_check(kind, oracle, line, &count);
+    for (size_t i = 0; i < count; i++) {
+        failed[i] = failed[i] || !oracle_law_holds(&line[i]);
+    }
+    return !holds;
+}
+
+/* Largest magnitude of the field that a component belongs to: u, v, p, F - I, P. */
+static double field_size(const double largest[NUMBERS], int component)
+{
+    int first = component < 9 ? component / 3 * 3 : component / 9 * 9, count = component < 9 ? 3 : 9;
+    double size = 0;
+    for (int i = first; i < first + count; i++) {
+        size = fmax(size, largest[i]);
+    }
+    return size;
+}
+
+static void spoil_each_component(const struct oracle_kind *kind, const struct oracle *oracle, bool failed[ORACLE_LAWS])
+{
+    struct oracle_kind copy = copy_of(kind);
+    double largest[NUMBERS];
+    bool none[ORACLE_LAWS] = {false};
+    CU_ASSERT_FALSE(caught(&copy, oracle, none)); /* going through the copy is no fault */
+    memcpy(largest, spoil.largest, sizeof largest);
+    for (int i = 0; i < NUMBERS; i++) {
+        spoil.component = i;
+        spoil.factor = 0;
+        spoil.shift = 1e-6 * field_size(largest, i);
+        CU_ASSERT_TRUE(caught(&copy, oracle, failed));
+        spoil.factor = 1e-6;
+        spoil.shift = 0;
+        CU_ASSERT_TRUE(largest[i] < 1e-3 * field_size(largest, i) || caught(&copy, oracle, failed));
+        spoil.factor = NAN;
+        CU_ASSERT_TRUE(caught(&copy, oracle, none));
+    }
+}
+
+static void its_check_sees_every_component_and_every_line_can_fail(void)
+{
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        struct oracle *oracle = create_typical(*k);
+        struct oracle_check line[ORACLE_LAWS];
+        bool failed[ORACLE_LAWS] = {false};
+        size_t count = 0;
+        spoil_each_component(*k, oracle, failed);
+        struct oracle_kind copy = copy_of(*k);
+        spoil.kinetic_factor = 1e-6;
+        CU_ASSERT_TRUE(caught(&copy, oracle, failed));
+        spoil.strain_factor = 1e-6; /* both: the total stays constant */
+        CU_ASSERT_TRUE(caught(&copy, oracle, failed));
+        spoil.strain_factor = NAN;
+        CU_ASSERT_TRUE(caught(&copy, oracle, failed));
+        (void)oracle_self_check(*k, oracle, line, &count);
+        for (size_t i = 0; i < count; i++) {
+            if (!failed[i]) {
+                printf("%s: nothing makes \"%s\" fail\n", (*k)->name, line[i].law);
+            }
+            CU_ASSERT_TRUE(failed[i]);
+        }
+        (*k)->destroy(oracle);
+    }
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"describes itself", describes_itself},
+        {"refuses each bad value", refuses_each_bad_value},
+        {"answers repeatably with finite numbers", answers_repeatably_with_finite_numbers},
+        {"passes its own check", passes_its_own_check},
+        {"fills no more lines than there is room for", fills_no_more_lines_than_there_is_room_for},
+        {"its check sees every component, and every line can fail",
+         its_check_sees_every_component_and_every_line_can_fail},
+    };
+    return unit_main("oracles: conformance", tests, sizeof tests / sizeof *tests);
+}
