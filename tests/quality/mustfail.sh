@@ -57,4 +57,51 @@ expect 1 forbidden "a golden that knows oracles" golden/a.c '#include "oracles/o
 expect 1 forbidden "a path around the rooms" solver/a.c '#include "../verify/study.h"\n'
 expect 1 forbidden "a large file" golden/a.h5 "$(head -c 1100000 /dev/zero | tr '\0' a)"
 expect 1 forbidden "a long file" solver/a.c "$(yes '\n' | head -n 501 | tr -d '\n')"
+
+# The checks that run programs get a project of one test program each.
+project() {
+  fresh
+  cd -- "$scratch/tree"
+  cp -- "$source/CMakePresets.json" .
+  printf '%s\n' 'cmake_minimum_required(VERSION 3.22)' 'project(small LANGUAGES C)' 'enable_testing()' \
+    'add_subdirectory(tests)' >CMakeLists.txt
+  printf '%s\n' "$1" 'add_executable(test_x x.c)' 'add_test(NAME unit-x COMMAND test_x)' >tests/CMakeLists.txt
+  printf '#include <stdlib.h>\nint main(int n, char **v)\n{\n    (void)v;\n    %s\n}\n' "$2" >tests/x.c
+}
+# ends CODE NAME SAYS CHECK ARGS: the check ends so and, if it caught something, says what.
+ends() {
+  local code=$1 name=$2 says=$3 got=0
+  shift 3
+  "$here/$1.sh" "${@:2}" >"$scratch/said" 2>&1 || got=1
+  if ((got != code)) || ! grep -qF -- "$says" "$scratch/said"; then
+    printf '%s: %s was expected to end with %d and say "%s", and it said:\n' "$1" "$name" "$code" "$says"
+    cat "$scratch/said"
+    wrong=1
+  fi
+}
+warn='add_compile_options(-g -gdwarf-4 -Wall -Wextra -Werror)'
+# shellcheck disable=SC2016 # a variable of CMake
+sanitize='add_compile_options(-g -fsanitize=${ASSAY_SANITIZE} -fno-sanitize-recover=all)
+add_link_options(-fsanitize=${ASSAY_SANITIZE})'
+overrun='char *p = malloc((size_t)n); p[0] = 0; int r = p[n]; free(p); return r * 0;'
+
+project "$warn" 'int unused = n; return 0;'
+ends 1 "a warning" 'unused variable' build "$PWD" "$PWD/build" debug -DCMAKE_C_COMPILER=clang-14
+project "$warn" 'return n - 1;'
+ends 0 "a clean program" '' build "$PWD" "$PWD/build" debug -DCMAKE_C_COMPILER=clang-14
+ends 0 "a clean program" '1 programs' valgrind "$PWD/build"
+project "$warn" "$overrun"
+ends 0 "a clean build" '' build "$PWD" "$PWD/build" debug -DCMAKE_C_COMPILER=clang-14
+ends 1 "a read past the end" 'Invalid read' valgrind "$PWD/build"
+project "$warn" 'void *volatile p = malloc((size_t)n); p = NULL; return p != NULL;'
+ends 0 "a clean build" '' build "$PWD" "$PWD/build" debug -DCMAKE_C_COMPILER=clang-14
+ends 1 "a leak" 'definitely lost' valgrind "$PWD/build"
+project "$sanitize" 'return n - 1;'
+ends 0 "a clean program" '100% tests passed' sanitize "$PWD" "$PWD/build"
+project "$sanitize" "$overrun"
+ends 1 "a read past the end" 'heap-buffer-overflow' sanitize "$PWD" "$PWD/build"
+project "$sanitize" 'int big = 2147483647; return big + n > 0;'
+ends 1 "an overflow" 'signed integer overflow' sanitize "$PWD" "$PWD/build"
+project '' 'return n - 1;'
+ends 1 "a build without sanitizers" 'not built with sanitizers' sanitize "$PWD" "$PWD/build"
 exit $wrong
