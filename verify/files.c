@@ -1,32 +1,16 @@
 #include "verify/files.h"
 
+#include "solver/file.h"
+
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 static bool failed(struct solver_error *error, const char *verb, const char *path, int number)
 {
     return solver_fail(error, SOLVER_IO, "%s: cannot %s: %s", path, verb, strerror(number));
-}
-
-static int write_all(int file, const char *bytes, size_t size)
-{
-    while (size > 0) {
-        ssize_t written = write(file, bytes, size);
-        if (written < 0 && errno == EINTR) {
-            continue;
-        }
-        if (written < 0) {
-            return errno;
-        }
-        bytes += written;
-        size -= (size_t)written;
-    }
-    return fsync(file) == 0 ? 0 : errno;
 }
 
 bool verify_file_write(const char *path, const void *bytes, size_t size, struct solver_error *error)
@@ -35,26 +19,7 @@ bool verify_file_write(const char *path, const void *bytes, size_t size, struct 
     if (lstat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
         return solver_fail(error, SOLVER_IO, "%s: is not a plain file; name another file to write to", path);
     }
-    char beside[VERIFY_PATH];
-    if (snprintf(beside, sizeof beside, "%s.%ld.part", path, (long)getpid()) >= (int)sizeof beside) {
-        return solver_fail(error, SOLVER_BAD_INPUT, "the file name is too long: %.200s...", path);
-    }
-    int file = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0) {
-        return failed(error, "write", path, errno);
-    }
-    int number = write_all(file, bytes, size);
-    if (close(file) != 0 && number == 0) {
-        number = errno;
-    }
-    if (number == 0 && rename(beside, path) != 0) {
-        number = errno;
-    }
-    if (number != 0) {
-        (void)unlink(beside);
-        return failed(error, "write", path, number);
-    }
-    return true;
+    return solver_file_replace(path, bytes, size, error);
 }
 
 static bool read_stream(FILE *file, const char *path, size_t size, char *bytes, struct solver_error *error)

@@ -2,15 +2,8 @@
 
 #include "verify/suggest.h"
 
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-bool verify_truth_line_holds(const struct oracle_check *line)
-{
-    return isfinite(line->residual) && line->residual <= line->bound;
-}
 
 static bool find_kind(const struct solver_scene *scene, const struct oracle_kind **kind, struct solver_error *error)
 {
@@ -84,28 +77,6 @@ static bool parameters(const struct solver_scene *scene, struct verify_truth *tr
     return true;
 }
 
-static bool prove(struct verify_truth *truth, struct solver_error *error)
-{
-    size_t room = 64;
-    for (;;) {
-        struct oracle_check *grown = realloc(truth->check, room * sizeof *grown);
-        if (grown == NULL) {
-            return solver_fail(error, SOLVER_NO_MEMORY, "no memory for %zu lines of the oracle's self-check", room);
-        }
-        truth->check = grown;
-        truth->check_count = truth->kind->check(truth->oracle, truth->check, room);
-        if (truth->check_count <= room) {
-            break;
-        }
-        room = truth->check_count;
-    }
-    truth->proven = truth->check_count > 0;
-    for (size_t i = 0; i < truth->check_count; i++) {
-        truth->proven = truth->proven && verify_truth_line_holds(&truth->check[i]);
-    }
-    return true;
-}
-
 bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error)
 {
     *truth = (struct verify_truth){.kind = NULL};
@@ -117,10 +88,7 @@ bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *
     if (!oracle_create(truth->kind, truth->value, &truth->oracle, why)) {
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: oracle \"%s\": %s", scene->path, truth->kind->name, why);
     }
-    if (!prove(truth, error)) {
-        verify_truth_free(truth);
-        return false;
-    }
+    truth->proven = oracle_self_check(truth->kind, truth->oracle, truth->check, &truth->check_count);
     return true;
 }
 
@@ -129,6 +97,5 @@ void verify_truth_free(struct verify_truth *truth)
     if (truth->oracle != NULL) {
         truth->kind->destroy(truth->oracle);
     }
-    free(truth->check);
     *truth = (struct verify_truth){.kind = NULL};
 }

@@ -15,16 +15,13 @@ struct verify_truth {
     double value[ORACLE_PARAMETERS]; /* what the oracle was told, in the order of the kind's parameters */
     bool told[ORACLE_PARAMETERS];    /* told by oracle.KEY, in place of the scene's own value */
     size_t check_count;
-    struct oracle_check *check; /* the self-check, line by line */
-    bool proven;                /* at least one line, and each within its bound */
+    struct oracle_check check[ORACLE_LAWS]; /* the self-check, line by line */
+    bool proven;                            /* at least one line, and each within its bound */
 };
 
 /* Finds the scene's oracle, gives it its parameters (oracle.KEY before the scene's own value of that name) and runs its
  * self-check. A failing self-check is no error: see `proven`. Errors name the key that is missing or unknown. */
 bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error);
 void verify_truth_free(struct verify_truth *truth);
-
-/* Whether a line of the self-check holds; a residual that is not finite does not. */
-bool verify_truth_line_holds(const struct oracle_check *line);
 
 #endif

@@ -1,0 +1,126 @@
+#include "oracles/oracle.h"
+#include "verify/commands.h"
+#include "verify/find.h"
+#include "verify/suggest.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool list_scenes(struct solver_error *error)
+{
+    struct verify_scenes *scenes = calloc(1, sizeof *scenes);
+    if (scenes == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the list of scenes");
+    }
+    bool done = verify_scenes_list(scenes, error);
+    (void)printf("%s", done ? "scenes\n" : "");
+    for (size_t i = 0; done && i < scenes->count; i++) {
+        char path[VERIFY_PATH];
+        struct solver_scene *scene = NULL;
+        struct solver_error why = {.code = SOLVER_OK};
+        bool loaded = verify_path_join(path, scenes->folder, scenes->name[i], ".lua", &why) &&
+                      solver_scene_load(path, NULL, 0, &scene, &why);
+        (void)printf("  %-24s %s%s\n", scenes->name[i],
+                     loaded ? "" : "cannot be loaded: ", loaded ? scene->title : why.text);
+        solver_scene_free(scene);
+    }
+    free(scenes);
+    return done;
+}
+
+static bool list_oracles(struct solver_error *error)
+{
+    (void)error;
+    (void)printf("oracles\n");
+    for (const struct oracle_kind *const *kind = oracle_kinds(); *kind != NULL; kind++) {
+        (void)printf("  %-24s %s\n", (*kind)->name, (*kind)->summary);
+        (void)printf("  %-24s source: %s\n", "", (*kind)->source);
+        for (const struct oracle_parameter *parameter = (*kind)->parameter; parameter->name != NULL; parameter++) {
+            (void)printf("  %-24s %s [%s]: %s\n", "", parameter->name, parameter->unit, parameter->help);
+        }
+    }
+    return true;
+}
+
+/* What a key of every scene admits. */
+static bool list_key(const char *heading, const char *name)
+{
+    for (const struct solver_scene_key *key = solver_scene_keys(); key->key != NULL; key++) {
+        if (strcmp(key->key, name) == 0) {
+            (void)printf("%-26s %s\n", heading, key->expects);
+        }
+    }
+    return true;
+}
+
+static bool list_schemes(struct solver_error *error)
+{
+    (void)error;
+    return list_key("schemes", "scheme") && list_key("evolved sets", "evolved");
+}
+
+static bool list_materials(struct solver_error *error)
+{
+    (void)error;
+    return list_key("materials", "material.model");
+}
+
+static bool list_stencils(struct solver_error *error)
+{
+    (void)error;
+    return list_key("stencils", "stencil");
+}
+
+static bool list_integrators(struct solver_error *error)
+{
+    (void)error;
+    return list_key("integrators", "integrator");
+}
+
+static bool list_keys(struct solver_error *error)
+{
+    (void)error;
+    (void)printf("keys of a scene; any of them can be set on the command line by --set KEY=VALUE\n");
+    for (const struct solver_scene_key *key = solver_scene_keys(); key->key != NULL; key++) {
+        (void)printf("  %-24s %s\n  %-24s   %s\n", key->key, key->meaning, "", key->expects);
+    }
+    return true;
+}
+
+static const struct {
+    const char *name;
+    bool (*list)(struct solver_error *error);
+    bool by_default;
+} subjects[] = {
+    {"scenes", list_scenes, true},       {"oracles", list_oracles, true},   {"schemes", list_schemes, true},
+    {"materials", list_materials, true}, {"stencils", list_stencils, true}, {"integrators", list_integrators, true},
+    {"keys", list_keys, false},
+};
+enum { SUBJECTS = sizeof subjects / sizeof *subjects };
+
+int verify_command_list(const struct verify_options *options)
+{
+    struct solver_error error = {.code = SOLVER_OK};
+    const char *wanted = options->operand_count > 0 ? options->operand[0] : NULL;
+    const char *names[SUBJECTS];
+    bool found = false;
+    for (size_t i = 0; i < SUBJECTS; i++) {
+        names[i] = subjects[i].name;
+        if (wanted != NULL ? strcmp(wanted, names[i]) == 0 : subjects[i].by_default) {
+            found = true;
+            if (!subjects[i].list(&error)) {
+                return verify_complain(&error);
+            }
+        }
+    }
+    if (!found) {
+        const char *meant = verify_suggest(wanted, names, SUBJECTS);
+        (void)solver_fail(
+            &error, SOLVER_BAD_INPUT,
+            "list %s: there are scenes, oracles, schemes, materials, stencils, integrators and keys%s%s%s", wanted,
+            meant != NULL ? "; did you mean " : "", meant != NULL ? meant : "", meant != NULL ? "?" : "");
+        return verify_complain(&error);
+    }
+    return VERIFY_PASSED;
+}

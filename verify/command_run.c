@@ -1,0 +1,72 @@
+#include "verify/commands.h"
+#include "verify/find.h"
+#include "verify/picture.h"
+#include "verify/report.h"
+#include "verify/simulate.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static void print_facts(const struct solver_scene *scene, const struct solver_facts *facts)
+{
+    double particle_steps = (double)facts->particles * (double)facts->steps;
+    (void)printf("%s (%s)\n", scene->title, scene->path);
+    (void)printf("  %zu particles, spacing %.6g m, %zu pairs, %zu steps to t = %.6g s on %d threads\n",
+                 facts->particles, facts->spacing, facts->pairs, facts->steps, scene->t_end, facts->threads);
+    (void)printf("  set up in %.3f s, ran for %.3f s: %.1f ns per particle-step\n", facts->setup_seconds,
+                 facts->seconds, 1e9 * facts->seconds / particle_steps);
+    (void)printf("  %.0f bytes per particle, %.0f of them fields of the scheme; stencil residual %.2e [-]\n",
+                 facts->bytes_per_particle, facts->state_bytes, facts->stencil_residual);
+}
+
+/* Record and picture of a finished run. The picture is drawn from the record as read back, which proves that it can
+ * be. */
+static bool keep(const struct solver_scene *scene, struct solver_run *run, const char *folder, const char *line,
+                 struct solver_error *error)
+{
+    char record_path[VERIFY_PATH], picture_path[VERIFY_PATH];
+    struct solver_record *record = NULL;
+    if (!verify_record(scene, run, folder, scene->name, line, record_path, error) ||
+        !verify_path_join(picture_path, folder, scene->name, ".png", error) ||
+        !solver_record_read(record_path, &record, error)) {
+        return false;
+    }
+    bool drawn = verify_picture_write(picture_path, record, scene->has_view ? &scene->view : NULL, scene->title, error);
+    solver_record_free(record);
+    if (drawn) {
+        (void)printf("record     %s\npicture    %s\n", record_path, picture_path);
+    }
+    return drawn;
+}
+
+static bool run_scene(const struct solver_scene *scene, const struct verify_options *options,
+                      struct solver_error *error)
+{
+    char folder[VERIFY_PATH];
+    struct solver_run *run = NULL;
+    if (!verify_out_folder(options, scene->name, folder, error) ||
+        !verify_simulate(scene, folder, options->line, &run, error)) {
+        return false;
+    }
+    const struct solver_facts facts = solver_run_facts(run);
+    print_facts(scene, &facts);
+    const struct solver_history *history = solver_run_history(run);
+    if (history->count > 0) {
+        verify_terminal_totals(stdout, &history->totals[0], &history->totals[history->count - 1]);
+    }
+    bool kept = keep(scene, run, folder, options->line, error);
+    solver_run_free(run);
+    return kept;
+}
+
+int verify_command_run(const struct verify_options *options)
+{
+    struct solver_error error = {.code = SOLVER_OK};
+    struct solver_scene *scene = NULL;
+    if (!verify_scene_open(options, 0, &scene, &error)) {
+        return verify_complain(&error);
+    }
+    bool done = run_scene(scene, options, &error);
+    solver_scene_free(scene);
+    return done ? VERIFY_PASSED : verify_complain(&error);
+}

@@ -1,0 +1,203 @@
+#include "verify/commands.h"
+#include "verify/find.h"
+#include "verify/picture.h"
+#include "verify/report.h"
+#include "verify/simulate.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* All that a study needs while it runs. */
+struct work {
+    const struct verify_options *options;
+    struct solver_scene *scene; /* of the level at hand */
+    struct verify_truth truth;
+    struct verify_study study;
+    char folder[VERIFY_PATH];
+    size_t level_count;
+    int level[SOLVER_LEVELS];
+    size_t shown_count;
+    size_t shown[VERIFY_ERRORS];
+};
+
+static bool refuse_n(const struct verify_options *options, struct solver_error *error)
+{
+    for (size_t i = 0; i < options->override_count; i++) {
+        if (strncmp(options->override[i], "n=", 2) == 0 || strncmp(options->override[i], "levels=", 7) == 0) {
+            return solver_fail(error, SOLVER_BAD_INPUT,
+                               "--set %s: a study runs several values of n; say which by --levels 4,8,16",
+                               options->override[i]);
+        }
+    }
+    return true;
+}
+
+static bool choose_levels(struct work *work, struct solver_error *error)
+{
+    bool given = work->options->level_count > 0;
+    work->level_count = given ? work->options->level_count : work->scene->level_count;
+    memcpy(work->level, given ? work->options->level : work->scene->levels, work->level_count * sizeof *work->level);
+    return work->level_count > 0 ||
+           solver_fail(error, SOLVER_BAD_INPUT, "%s: the scene has no levels; give --levels 4,8,16", work->scene->path);
+}
+
+/* Renders the record's picture, and the exact one beside it. */
+static bool draw(struct work *work, struct solver_error *error)
+{
+    const struct solver_scene *scene = work->scene;
+    const struct solver_view *view = scene->has_view ? &scene->view : NULL;
+    struct verify_study *study = &work->study;
+    struct solver_record *record = NULL;
+    char title[SOLVER_TEXT + 16];
+    (void)snprintf(title, sizeof title, "%s, exact", scene->title);
+    if (!solver_record_read(study->record, &record, error)) {
+        return false;
+    }
+    bool done = verify_path_join(study->picture, work->folder, scene->name, ".png", error) &&
+                verify_path_join(study->exact_picture, work->folder, scene->name, ".exact.png", error) &&
+                verify_picture_write(study->picture, record, view, scene->title, error);
+    if (done) {
+        verify_picture_exact(record, work->truth.kind, work->truth.oracle);
+        done = verify_picture_write(study->exact_picture, record, view, title, error);
+    }
+    solver_record_free(record);
+    return done;
+}
+
+/* Runs one level and adds it to the study; keeps record and pictures of the finest. */
+static bool run_level(struct work *work, size_t index, struct solver_error *error)
+{
+    const struct solver_scene *scene = work->scene;
+    struct verify_level level = {.n = work->level[index]};
+    struct solver_run *run = NULL;
+    struct solver_output output;
+    if (!verify_simulate(scene, work->folder, work->options->line, &run, error)) {
+        return false;
+    }
+    level.facts = solver_run_facts(run);
+    bool done = solver_run_output(run, &output, error) &&
+                verify_norms_measure(&output, work->truth.kind, work->truth.oracle, level.error, error);
+    if (done) {
+        verify_study_add(&work->study, &level);
+        verify_terminal_level(stdout, &work->study, work->shown, work->shown_count);
+    }
+    if (done && index + 1 == work->level_count) {
+        const struct solver_history *history = solver_run_history(run);
+        work->study.first = history->totals[0];
+        work->study.last = history->totals[history->count - 1];
+        done = verify_record(scene, run, work->folder, scene->name, work->options->line, work->study.record, error) &&
+               draw(work, error);
+    }
+    solver_run_free(run);
+    return done;
+}
+
+static bool open_level(struct work *work, int n, struct solver_error *error)
+{
+    solver_scene_free(work->scene);
+    work->scene = NULL;
+    bool opened = verify_scene_open(work->options, n, &work->scene, error);
+    work->study.scene = work->scene;
+    return opened;
+}
+
+static bool run_levels(struct work *work, struct solver_error *error)
+{
+    for (size_t i = 0; i < work->level_count; i++) {
+        if (!open_level(work, work->level[i], error) || !run_level(work, i, error)) {
+            return false;
+        }
+    }
+    return verify_study_judge(&work->study, error);
+}
+
+enum format { JSON, HTML };
+
+/* Builds a report in memory and writes it whole. */
+static bool write_report(const struct work *work, enum format format, const char *path, struct solver_error *error)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *memory = open_memstream(&text, &size);
+    if (memory == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for the report", path);
+    }
+    bool done = true;
+    if (format == JSON) {
+        verify_json(memory, &work->study);
+    } else {
+        done = verify_html(memory, &work->study, work->shown, work->shown_count, error);
+    }
+    bool whole = ferror(memory) == 0;
+    whole = fclose(memory) == 0 && whole;
+    if (done && !whole) {
+        done = solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for the report", path);
+    }
+    done = done && verify_file_write(path, text, size, error);
+    free(text);
+    return done;
+}
+
+static bool write_reports(const struct work *work, struct solver_error *error)
+{
+    char html[VERIFY_PATH], json[VERIFY_PATH];
+    if (!verify_path_join(html, work->folder, "report", ".html", error) ||
+        !verify_path_join(json, work->folder, "report", ".json", error) || !write_report(work, HTML, html, error) ||
+        !write_report(work, JSON, json, error) ||
+        (work->options->json != NULL && !write_report(work, JSON, work->options->json, error))) {
+        return false;
+    }
+    (void)printf("\nreport     %s\n           %s\n", html, json);
+    if (work->options->json != NULL) {
+        (void)printf("           %s\n", work->options->json);
+    }
+    if (work->study.record[0] != '\0') {
+        (void)printf("record     %s\npicture    %s\nexact      %s\n", work->study.record, work->study.picture,
+                     work->study.exact_picture);
+    }
+    return true;
+}
+
+/* The whole study; *passed says whether nothing it judged failed. */
+static bool study(struct work *work, bool *passed, struct solver_error *error)
+{
+    if (!refuse_n(work->options, error) || !open_level(work, 0, error) || !choose_levels(work, error) ||
+        !open_level(work, work->level[0], error) || !verify_truth_create(work->scene, &work->truth, error)) {
+        return false;
+    }
+    work->study.truth = &work->truth;
+    work->shown_count = verify_shown(work->scene, work->shown, error);
+    if (work->shown_count == 0 || !verify_out_folder(work->options, work->scene->name, work->folder, error)) {
+        return false;
+    }
+    verify_terminal_begin(stdout, &work->study, work->shown, work->shown_count);
+    if (work->truth.proven) {
+        if (!run_levels(work, error)) {
+            return false;
+        }
+        verify_terminal_end(stdout, &work->study, work->shown, work->shown_count);
+    }
+    *passed = work->truth.proven && (work->study.gates.count == 0 || work->study.gates.pass);
+    return write_reports(work, error);
+}
+
+int verify_command_verify(const struct verify_options *options)
+{
+    struct solver_error error = {.code = SOLVER_OK};
+    struct work *work = calloc(1, sizeof *work);
+    if (work == NULL) {
+        (void)solver_fail(&error, SOLVER_NO_MEMORY, "no memory for a study");
+        return verify_complain(&error);
+    }
+    work->options = options;
+    bool passed = false;
+    bool done = study(work, &passed, &error);
+    verify_truth_free(&work->truth);
+    solver_scene_free(work->scene);
+    free(work);
+    if (!done) {
+        return verify_complain(&error);
+    }
+    return passed ? VERIFY_PASSED : VERIFY_FAILED;
+}

@@ -1,0 +1,18 @@
+/* The commands of the program; each takes its options and returns an exit code. */
+#ifndef VERIFY_COMMANDS_H
+#define VERIFY_COMMANDS_H
+
+#include "verify/options.h"
+
+int verify_command_run(const struct verify_options *options);
+int verify_command_verify(const struct verify_options *options);
+int verify_command_render(const struct verify_options *options);
+int verify_command_golden(const struct verify_options *options);
+int verify_command_list(const struct verify_options *options);
+
+/* The program's version, as records and help show it. */
+const char *verify_version(void);
+/* Prints "assay: TEXT" on standard error and returns the exit code that belongs to the error. */
+int verify_complain(const struct solver_error *error);
+
+#endif

@@ -1,0 +1,138 @@
+/* assay: the command line. Dispatch only; each command stands in its own file. */
+#include "verify/commands.h"
+#include "verify/suggest.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct verify_command commands[] = {
+    {.name = "list",
+     .operands = "[SUBJECT]",
+     .summary = "scenes, oracles, schemes, materials, stencils, integrators",
+     .help = "Lists what there is, one line each. SUBJECT is one of scenes, oracles, schemes, materials,\n"
+             "stencils, integrators, or keys: every key a scene understands, with what it expects.",
+     .most = 1,
+     .run = verify_command_list},
+    {.name = "run",
+     .operands = "SCENE",
+     .summary = "simulate: record, picture, conserved quantities",
+     .help = "Simulates a scene: one of `assay list scenes`, or the path of a .lua file. Writes SCENE.vtkhdf, which\n"
+             "ParaView opens (SCENE.xdmf beside it is for older readers), and SCENE.png, and prints conserved\n"
+             "quantities, time and memory per particle.\n\n"
+             "  assay run swinging-cube --set n=16 --set stencil=closed --set material.nu=0.45",
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_OUT,
+     .least = 1,
+     .most = 1,
+     .run = verify_command_run},
+    {.name = "verify",
+     .operands = "SCENE",
+     .summary = "convergence study against the scene's oracle, with gates",
+     .help = "Runs a scene at several spacings and compares each result with the scene's exact solution, which first\n"
+             "has to prove itself. Prints errors and observed orders beside the published figures, then the gates:\n"
+             "what was measured, the bound, and whether it holds. Writes report.html, report.json, and the record and\n"
+             "pictures of the finest level. n counts spacings along the scene's reference length.\n\n"
+             "  assay verify swinging-cube\n"
+             "  assay verify swinging-cube --levels 4,8 --set stencil=closed --json result.json\n"
+             "  assay verify swinging-cube --set oracle.U0=5.05e-4   the oracle is told something else: gates fail\n\n"
+             "Exit code: 0 all gates pass, or none holds for the configuration, which is then said; 1 a gate or the\n"
+             "oracle's self-check fails; 2 the command line, the scene or a file is wrong; 3 the run broke down.",
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_LEVELS | VERIFY_TAKES_JSON | VERIFY_TAKES_OUT,
+     .least = 1,
+     .most = 1,
+     .run = verify_command_verify},
+    {.name = "render",
+     .operands = "RECORD",
+     .summary = "contour picture of a record",
+     .help = "Draws a record (.vtkhdf) as the view of the scene stored in it says; --set changes that view.\n\n"
+             "  assay render out/swinging-cube/swinging-cube.vtkhdf -o stress.png --set view.field=von_mises",
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_PICTURE,
+     .least = 1,
+     .most = 1,
+     .run = verify_command_render},
+    {.name = "golden",
+     .operands = "check|update SCENE",
+     .summary = "compare with, or renew, the stored record and picture",
+     .help = "check runs a scene at its coarsest level and compares record and picture with the stored ones, field by\n"
+             "field; where they differ it exits with 1, and the difference picture stands in the --out folder beside\n"
+             "the stored and the fresh one. update stores what comes out now.\n\n"
+             "  assay golden check swinging-cube",
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_OUT | VERIFY_TAKES_DIR,
+     .least = 2,
+     .most = 2,
+     .run = verify_command_golden},
+};
+enum { COMMANDS = sizeof commands / sizeof *commands };
+
+static void print_help(FILE *file)
+{
+    (void)fprintf(file,
+                  "assay %s: solid dynamics that carries its own proof\n\nusage: assay COMMAND [words and options]\n\n",
+                  verify_version());
+    for (size_t i = 0; i < COMMANDS; i++) {
+        (void)fprintf(file, "  %-8s %-20s %s\n", commands[i].name, commands[i].operands, commands[i].summary);
+    }
+    (void)fprintf(file, "\nassay COMMAND --help says more. A first one to try:\n\n  assay verify swinging-cube\n\n"
+                        "Exit codes: 0 all is well, 1 a gate or a comparison fails, 2 the command line, a scene or a\n"
+                        "file is wrong, 3 the run itself failed.\n");
+}
+
+static const struct verify_command *find(const char *name)
+{
+    for (size_t i = 0; i < COMMANDS; i++) {
+        if (strcmp(commands[i].name, name) == 0) {
+            return &commands[i];
+        }
+    }
+    return NULL;
+}
+
+static int refuse(const char *word)
+{
+    const char *names[COMMANDS];
+    for (size_t i = 0; i < COMMANDS; i++) {
+        names[i] = commands[i].name;
+    }
+    const char *meant = verify_suggest(word, names, COMMANDS);
+    struct solver_error error;
+    (void)solver_fail(&error, SOLVER_BAD_INPUT, "there is no command %s; %s%s%s", word,
+                      meant != NULL ? "did you mean assay " : "see assay --help", meant != NULL ? meant : "",
+                      meant != NULL ? "?" : "");
+    return verify_complain(&error);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2) {
+        print_help(stderr);
+        return VERIFY_BAD_INPUT;
+    }
+    const char *word = argv[1];
+    bool help = strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
+    if (help && argc == 2) {
+        print_help(stdout);
+        return VERIFY_PASSED;
+    }
+    if (strcmp(word, "--version") == 0) {
+        (void)printf("assay %s\n", verify_version());
+        return VERIFY_PASSED;
+    }
+    const struct verify_command *command = find(help ? argv[2] : word);
+    if (command == NULL) {
+        return refuse(help ? argv[2] : word);
+    }
+    struct verify_options options = {.help = true};
+    struct solver_error error = {.code = SOLVER_OK};
+    if (!help && !verify_options_parse(command, argc - 2, argv + 2, &options, &error)) {
+        return verify_complain(&error);
+    }
+    if (options.help) {
+        verify_options_help(stdout, command);
+        return VERIFY_PASSED;
+    }
+    int code = command->run(&options);
+    if (fflush(stdout) != 0 || ferror(stdout) != 0) { /* a full disk behind a pipe or a redirection */
+        (void)fprintf(stderr, "assay: standard output could not be written\n");
+        return code == VERIFY_PASSED ? VERIFY_BAD_INPUT : code;
+    }
+    return code;
+}

@@ -1,0 +1,197 @@
+#include "verify/picture.h"
+
+#include "verify/files.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct solver_view corner_view = {
+    .field = "pressure", .bands = 16, .direction = {1, 0.8, 0.6}, .up = {0, 0, 1}, .magnify = 1, .size = {900, 700}};
+
+/* What the colour bar calls a field. */
+static const char *label_of(const char *field)
+{
+    static const char *const table[][2] = {{"pressure", "mean stress"}, {"von_mises", "von Mises stress"}};
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        if (strcmp(field, table[i][0]) == 0) {
+            return table[i][1];
+        }
+    }
+    return field;
+}
+
+/* A scalar of a record: a field of one column, the size of a vector by its name, or a component as NAME_x or NAME_xy.
+ * Gives the first column and how many count. */
+static const struct solver_record_field *find_scalar(const struct solver_record *record, const char *name, int *first,
+                                                     int *columns)
+{
+    const struct solver_record_field *field = solver_record_find(record, name);
+    *first = 0;
+    *columns = field != NULL ? field->width : 0;
+    const char *underscore = strrchr(name, '_');
+    if (field != NULL || underscore == NULL) {
+        return field != NULL && field->width <= 3 ? field : NULL;
+    }
+    char stem[SOLVER_NAME];
+    (void)snprintf(stem, sizeof stem, "%.*s", (int)(underscore - name), name);
+    field = solver_record_find(record, stem);
+    size_t letters = strlen(underscore + 1);
+    if (field == NULL || strspn(underscore + 1, "xyz") != letters || (letters == 1 && field->width != 3) ||
+        (letters == 2 && field->width != 9) || letters < 1 || letters > 2) {
+        return NULL;
+    }
+    *columns = 1;
+    *first = underscore[1] - 'x';
+    if (letters == 2) {
+        *first = 3 * *first + (underscore[2] - 'x');
+    }
+    return field;
+}
+
+static bool read_scalar(const struct solver_record *record, const char *name, double *scalar, const char **unit,
+                        struct solver_error *error)
+{
+    int first = 0, columns = 0;
+    const struct solver_record_field *field = find_scalar(record, name, &first, &columns);
+    if (field == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "view.field: the record has no scalar \"%s\"; a field of it is meant, as in pressure, "
+                           "von_mises, displacement, displacement_x, P_xy",
+                           name);
+    }
+    *unit = field->unit;
+    for (size_t a = 0; a < record->count; a++) {
+        const double *value = field->value + a * (size_t)field->width + first;
+        scalar[a] = columns == 1 ? value[0] : sqrt(value[0] * value[0] + value[1] * value[1] + value[2] * value[2]);
+    }
+    return true;
+}
+
+static bool place(const struct solver_record *record, double magnify, double *position, struct solver_error *error)
+{
+    const struct solver_record_field *displacement = solver_record_find(record, "displacement");
+    if (displacement == NULL || displacement->width != 3) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "the record has no field \"displacement\" of width 3");
+    }
+    for (size_t i = 0; i < 3 * record->count; i++) {
+        position[i] = record->X[i] + magnify * displacement->value[i];
+    }
+    return true;
+}
+
+static void bounds(const double *point, size_t count, double lower[3], double upper[3])
+{
+    for (size_t i = 0; i < 3; i++) {
+        lower[i] = INFINITY;
+        upper[i] = -INFINITY;
+    }
+    for (size_t i = 0; i < 3 * count; i++) {
+        lower[i % 3] = fmin(lower[i % 3], point[i]);
+        upper[i % 3] = fmax(upper[i % 3], point[i]);
+    }
+}
+
+/* The body's reference bounding box with room around it: a tenth of its largest edge, doubled until the deformed body
+ * is inside. */
+static void frame_of(const struct solver_record *record, const double *position, double frame[6])
+{
+    double lower[3], upper[3], seen_lower[3], seen_upper[3], edge = 0, room = 0;
+    bounds(record->X, record->count, lower, upper);
+    bounds(position, record->count, seen_lower, seen_upper);
+    for (int i = 0; i < 3; i++) {
+        edge = fmax(edge, upper[i] - lower[i]);
+        room = fmax(room, fmax(lower[i] - seen_lower[i], seen_upper[i] - upper[i]));
+    }
+    double grown = 0.1 * edge;
+    while (grown < room && isfinite(room)) {
+        grown *= 2;
+    }
+    for (int i = 0; i < 3; i++) {
+        double growth = i < record->dim ? grown : 0;
+        frame[2 * i] = lower[i] - growth;
+        frame[2 * i + 1] = upper[i] + growth;
+    }
+}
+
+/* A colour range that is not empty, also where the field is constant. */
+static void full_range(const double *scalar, size_t count, double range[2])
+{
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
+    for (size_t a = 0; a < count; a++) {
+        range[0] = fmin(range[0], scalar[a]);
+        range[1] = fmax(range[1], scalar[a]);
+    }
+    if (!(range[1] > range[0])) {
+        double size = fmax(fabs(range[0]), 1.0);
+        range[0] -= 0.5 * size;
+        range[1] += 0.5 * size;
+    }
+}
+
+static bool draw_surface(const struct solver_record *record, const struct solver_view *view, const char *title,
+                         const double *position, const double *scalar, const char *unit, struct render_image **image,
+                         struct solver_error *error)
+{
+    uint32_t(*quad)[4] = NULL;
+    size_t quads = 0;
+    if (!verify_surface(record->cell, record->cell_count, record->cell_width, &quad, &quads)) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the surface of %zu cells", record->cell_count);
+    }
+    const struct render_surface surface = {record->count, position, scalar, quads, (const uint32_t *)quad};
+    struct render_view shown = {.bands = view->bands,
+                                .width = view->size[0],
+                                .height = view->size[1],
+                                .title = title,
+                                .label = label_of(view->field),
+                                .unit = unit};
+    memcpy(shown.direction, view->direction, sizeof shown.direction);
+    memcpy(shown.up, view->up, sizeof shown.up);
+    memcpy(shown.range, view->range, sizeof shown.range);
+    if (view == &corner_view) {
+        full_range(scalar, record->count, shown.range);
+    }
+    if (view == &corner_view && record->dim < 3) { /* face on */
+        memcpy(shown.direction, (double[3]){0, 0, 1}, sizeof shown.direction);
+        memcpy(shown.up, (double[3]){0, 1, 0}, sizeof shown.up);
+    }
+    frame_of(record, position, shown.frame);
+    char why[RENDER_WHY] = "";
+    bool drawn = render_draw(&surface, &shown, image, why);
+    free(quad);
+    return drawn || solver_fail(error, SOLVER_BAD_INPUT, "the picture cannot be drawn: %s", why);
+}
+
+bool verify_picture_draw(const struct solver_record *record, const struct solver_view *view, const char *title,
+                         struct render_image **image, struct solver_error *error)
+{
+    const struct solver_view *used = view != NULL ? view : &corner_view;
+    double *position = calloc(record->count, 3 * sizeof *position);
+    double *scalar = calloc(record->count, sizeof *scalar);
+    const char *unit = "";
+    char full_title[SOLVER_TEXT + 64];
+    (void)snprintf(full_title, sizeof full_title, "%s, t = %.6g s", title, record->time);
+    bool done = (position != NULL && scalar != NULL) ||
+                solver_fail(error, SOLVER_NO_MEMORY, "no memory for the picture of %zu particles", record->count);
+    done = done && place(record, used->magnify, position, error) &&
+           read_scalar(record, used->field, scalar, &unit, error) &&
+           draw_surface(record, used, full_title, position, scalar, unit, image, error);
+    free(position);
+    free(scalar);
+    return done;
+}
+
+bool verify_picture_write(const char *path, const struct solver_record *record, const struct solver_view *view,
+                          const char *title, struct solver_error *error)
+{
+    struct render_image *image = NULL;
+    if (!verify_picture_draw(record, view, title, &image, error)) {
+        return false;
+    }
+    char why[RENDER_WHY] = "";
+    bool written = render_png_write(path, image, why);
+    render_image_free(image);
+    return written || solver_fail(error, SOLVER_IO, "%s: %s", path, why);
+}

@@ -1,0 +1,30 @@
+/* What a study found, for people (terminal, HTML) and for programs (JSON). */
+#ifndef VERIFY_REPORT_H
+#define VERIFY_REPORT_H
+
+#include "verify/study.h"
+
+#include <stdio.h>
+
+/* Terminal: what is about to be done, then one row per level as it finishes, then orders, energies, gates and files.
+ * `shown` lists the errors that get columns (verify_shown). */
+void verify_terminal_begin(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
+void verify_terminal_level(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
+void verify_terminal_end(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
+/* Conserved quantities at the start and the end of a run. */
+void verify_terminal_totals(FILE *file, const struct solver_totals *first, const struct solver_totals *last);
+
+/* JSON, in the one shape that --json always has; numbers that are not finite are null. Where no gate holds for the
+ * configuration "pass" is null: nothing was judged. */
+void verify_json(FILE *file, const struct verify_study *study);
+/* A JSON string with its quotes; bytes that are no valid UTF-8 become U+FFFD. */
+void verify_json_string(FILE *file, const char *text);
+
+/* A self-contained HTML page: tables, convergence plot, pictures. */
+bool verify_html(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count,
+                 struct solver_error *error);
+/* The convergence plot of one error as an SVG element: measured and published values over the spacing, both axes
+ * logarithmic, with lines of whole orders for comparison. */
+void verify_plot(FILE *file, const struct verify_study *study, size_t error);
+
+#endif

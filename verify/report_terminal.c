@@ -1,0 +1,176 @@
+#include "verify/report.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *const evolved_name[] = {
+    [SOLVER_PF] = "{p,F}", [SOLVER_PFJ] = "{p,F,J}", [SOLVER_PFHJ] = "{p,F,H,J}"};
+
+/* "%.3e", or a dash where there is no number to show. */
+static const char *scientific(char text[32], double value)
+{
+    (void)snprintf(text, 32, isnan(value) ? "-" : "%.3e", value);
+    return text;
+}
+
+static const char *order(char text[32], double value)
+{
+    (void)snprintf(text, 32, isnan(value) ? "-" : "%.2f", value);
+    return text;
+}
+
+static void print_truth(FILE *file, const struct verify_truth *truth)
+{
+    (void)fprintf(file, "\noracle     %s: %s\n           source: %s\n", truth->kind->name, truth->kind->summary,
+                  truth->kind->source);
+    for (size_t i = 0; i < truth->parameter_count; i++) {
+        const struct oracle_parameter *parameter = &truth->kind->parameter[i];
+        if (truth->told[i]) {
+            (void)fprintf(file, "           TOLD %s = %.10g %s in place of the scene's own value\n", parameter->name,
+                          truth->value[i], parameter->unit);
+        }
+    }
+    (void)fprintf(file, "\n  %-44s %10s    %s\n", "self-check of the oracle", "residual", "bound");
+    for (size_t i = 0; i < truth->check_count; i++) {
+        const struct oracle_check *line = &truth->check[i];
+        (void)fprintf(file, "  %-44s %10.2e <= %-8.0e %s\n", line->law, line->residual, line->bound,
+                      oracle_law_holds(line) ? "holds" : "FAILS");
+    }
+    if (!truth->proven) {
+        (void)fprintf(file, "\nFAIL: the oracle does not prove itself, so nothing can be verified against it\n");
+    }
+}
+
+static void print_published_head(FILE *file, const struct solver_scene *scene)
+{
+    if (scene->published_count == 0) {
+        return;
+    }
+    (void)fprintf(file, "published: %s\n", scene->published_source);
+    (void)fprintf(file, "  The source does not define its error norm; ours are defined in verify/norms.h. Its figures\n"
+                        "  stand beside ours for orientation and decide no gate.\n");
+}
+
+void verify_terminal_begin(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+{
+    const struct solver_scene *scene = study->scene;
+    (void)fprintf(file, "%s (%s)\n", scene->title, scene->path);
+    (void)fprintf(file,
+                  "scheme     %s %s, stencil %s, support %.4g spacings, %s, CFL %.4g, material %s, t_end %.6g s\n",
+                  scene->scheme, evolved_name[scene->evolved], scene->stencil, scene->support, scene->integrator,
+                  scene->cfl, scene->material_model, scene->t_end);
+    print_truth(file, study->truth);
+    if (!study->truth->proven) {
+        return;
+    }
+    (void)fprintf(file, "\nerrors at t = %.6g s:\n", scene->t_end);
+    for (size_t i = 0; i < shown_count; i++) {
+        (void)fprintf(file, "  %-10s %s [%s]\n", verify_error_name(shown[i]), verify_error_meaning(shown[i]),
+                      verify_error_unit(shown[i]));
+    }
+    print_published_head(file, scene);
+    (void)fprintf(file, "\n%5s %10s %9s %6s %8s %10s", "n", "h", "particles", "steps", "time", "ns per");
+    for (size_t i = 0; i < shown_count; i++) {
+        (void)fprintf(file, " | %-10s %5s %10s", verify_error_name(shown[i]), "order", "published");
+    }
+    (void)fprintf(file, "\n%5s %10s %9s %6s %8s %10s", "", "[m]", "", "", "[s]", "part.-step");
+    for (size_t i = 0; i < shown_count; i++) {
+        (void)fprintf(file, " | [%s]%*s %5s %10s", verify_error_unit(shown[i]),
+                      (int)(8 - strlen(verify_error_unit(shown[i]))), "", "", "");
+    }
+    (void)fprintf(file, "\n");
+    (void)fflush(file);
+}
+
+void verify_terminal_level(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+{
+    const struct verify_level *level = &study->level[study->level_count - 1];
+    (void)fprintf(file, "%5d %10.4g %9zu %6zu %8.3f %10.1f", level->n, level->facts.spacing, level->facts.particles,
+                  level->facts.steps, level->facts.seconds, level->ns_per_particle_step);
+    for (size_t i = 0; i < shown_count; i++) {
+        char measured[32], rate[32], published[32];
+        double printed = verify_published(study->scene, level->n, verify_error_name(shown[i]));
+        (void)fprintf(file, " | %-10s %5s %10s", scientific(measured, level->error[shown[i]]),
+                      order(rate, level->rate[shown[i]]), scientific(published, printed));
+    }
+    (void)fprintf(file, "\n");
+    (void)fflush(file);
+}
+
+static void print_orders(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+{
+    if (study->level_count < 2) {
+        (void)fprintf(file, "\none level only: no order was observed\n");
+        return;
+    }
+    const struct verify_level *fine = &study->level[study->level_count - 1], *coarse = fine - 1;
+    (void)fprintf(file, "\nobserved order log(e1/e2)/log(h1/h2) from n = %d to %d:", coarse->n, fine->n);
+    for (size_t i = 0; i < shown_count; i++) {
+        char text[32];
+        const char *name = verify_error_name(shown[i]);
+        (void)fprintf(file, "%s %s %s", i == 0 ? "" : ",", name, order(text, fine->rate[shown[i]]));
+        double published = verify_order(verify_published(study->scene, coarse->n, name), 1.0 / coarse->n,
+                                        verify_published(study->scene, fine->n, name), 1.0 / fine->n);
+        if (!isnan(published)) {
+            (void)fprintf(file, " (published %.2f)", published);
+        }
+    }
+    (void)fprintf(file, "\n");
+}
+
+static void print_facts(FILE *file, const struct verify_study *study)
+{
+    const struct solver_facts *facts = &study->level[study->level_count - 1].facts;
+    (void)fprintf(file,
+                  "\nfinest level: %zu pairs (%.1f per particle), %.0f bytes per particle (%.0f of them fields of the "
+                  "scheme),\n  stencil residual %.2e [-], set up in %.2f s, %d threads\n",
+                  facts->pairs, (double)facts->pairs / (double)facts->particles, facts->bytes_per_particle,
+                  facts->state_bytes, facts->stencil_residual, facts->setup_seconds, facts->threads);
+    double kinetic = NAN, strain = NAN;
+    study->truth->kind->energy(study->truth->oracle, study->last.time, &kinetic, &strain);
+    (void)fprintf(file, "  energy at the end: kinetic %.6g J (exact %.6g J), strain %.6g J (exact %.6g J)\n",
+                  study->last.kinetic, kinetic, study->last.strain, strain);
+}
+
+static void print_gates(FILE *file, const struct verify_study *study)
+{
+    if (study->gates.count == 0) {
+        (void)fprintf(file, "\nNOT JUDGED: no gate of the scene holds for this configuration, so nothing above was "
+                            "tested against a bound.\n");
+        return;
+    }
+    (void)fprintf(file, "\n  %-16s %12s    %-12s %s\n", "gate", "measured", "bound", "unit");
+    for (size_t i = 0; i < study->gates.count; i++) {
+        const struct verify_gate *gate = &study->gates.gate[i];
+        (void)fprintf(file, "  %-16s %12.4g %s %-12.4g [%s]  %s%s\n", gate->name, gate->value, gate->op, gate->bound,
+                      gate->unit, gate->pass ? "PASS" : "FAIL", isfinite(gate->value) ? "" : " (nothing was measured)");
+    }
+    (void)fprintf(file, "%s\n", study->gates.pass ? "PASS: all gates hold" : "FAIL: a gate does not hold");
+}
+
+void verify_terminal_end(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+{
+    print_orders(file, study, shown, shown_count);
+    print_facts(file, study);
+    print_gates(file, study);
+}
+
+static void print_vector(FILE *file, const char *name, const double first[3], const double last[3], const char *unit)
+{
+    (void)fprintf(file, "  %-18s (%.6e, %.6e, %.6e) -> (%.6e, %.6e, %.6e) %s\n", name, first[0], first[1], first[2],
+                  last[0], last[1], last[2], unit);
+}
+
+void verify_terminal_totals(FILE *file, const struct solver_totals *first, const struct solver_totals *last)
+{
+    (void)fprintf(file, "conserved quantities, t = %.6g s -> t = %.6g s\n", first->time, last->time);
+    print_vector(file, "linear momentum", first->linear, last->linear, "kg m/s");
+    print_vector(file, "angular momentum", first->angular, last->angular, "kg m^2/s");
+    (void)fprintf(file, "  %-18s %.9e -> %.9e J\n", "kinetic energy", first->kinetic, last->kinetic);
+    (void)fprintf(file, "  %-18s %.9e -> %.9e J\n", "strain energy", first->strain, last->strain);
+    double before = first->kinetic + first->strain, after = last->kinetic + last->strain;
+    (void)fprintf(file, "  %-18s %.9e J\n", "external work", last->external - first->external);
+    (void)fprintf(file, "  %-18s %.3e J (%.3e of the energy at the start; dissipation where negative)\n",
+                  "energy gained", after - before - (last->external - first->external),
+                  before > 0 ? (after - before - (last->external - first->external)) / before : NAN);
+}
