@@ -4,11 +4,10 @@
 set -euo pipefail
 # One program and its reason per line; the sanitizers see these too.
 skipped=''
-supp=$(dirname -- "$0")/valgrind.supp
 memcheck() {
-  local name=${2##*/}
+  local name=${1##*/}
   timeout 120 valgrind --quiet --error-exitcode=99 --leak-check=full --show-leak-kinds=definite \
-    --errors-for-leak-kinds=definite --suppressions="$1" "$2" >"$name.memcheck" 2>&1 && return 0
+    --errors-for-leak-kinds=definite "$1" >"$name.memcheck" 2>&1 && return 0
   printf '%s fails under memcheck, exit code %d:\n' "$name" $?
   tail -n 40 "$name.memcheck"
   return 1
@@ -18,5 +17,5 @@ cd -- "$1"
 mapfile -t programs < <(find "$PWD/tests" -maxdepth 1 -name 'test_*' -executable -type f |
   grep -vxF "$(awk -v at="$PWD/tests/" 'NF { print at $1 }' <<<"$skipped")")
 ((${#programs[@]})) || { echo "no unit programs in $1"; exit 1; }
-printf '%s\0' "${programs[@]}" | xargs -0 -P "$(nproc)" -I '{}' bash -c 'memcheck "$@"' memcheck "$supp" '{}'
+printf '%s\0' "${programs[@]}" | xargs -0 -P "$(nproc)" -I '{}' bash -c 'memcheck "$@"' memcheck '{}'
 echo "${#programs[@]} programs"
