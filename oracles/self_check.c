@@ -62,11 +62,16 @@ static double step_along(const struct self_check *check, int axis)
     return SELF_CHECK_STEP / (axis == 3 ? check->frequency : check->wave_number);
 }
 
-/* Additive recurrence on the powers of 1/g, g^5 = g + 1: the four-dimensional golden ratio. */
+/* Halton's sequence: the digits of i + 1 in a prime base of its own per axis, mirrored at the point. */
 static double sequence(size_t i, int axis)
 {
-    double x = 0.5 + (double)(i + 1) * pow(1.1673039782614187, -(axis + 1));
-    return x - floor(x);
+    static const size_t base[4] = {2, 3, 5, 7};
+    double x = 0, digit = 1;
+    for (size_t rest = i + 1; rest > 0; rest /= base[axis]) {
+        digit /= (double)base[axis];
+        x += digit * (double)(rest % base[axis]);
+    }
+    return x;
 }
 
 void self_check_sample(const struct self_check *check, size_t i, double X[3], double *t)
