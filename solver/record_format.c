@@ -1,0 +1,66 @@
+#include "solver/record_format.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const struct record_required record_required[] = {
+    {"F", 9},    {"J", 1},        {"P", 9},      {"displacement", 3}, {"momentum", 3}, {"pressure", 1},
+    {"tags", 1}, {"velocity", 3}, {"volume", 1}, {"von_mises", 1},    {NULL, 0},
+};
+
+uint8_t record_vtk_type(int cell_width)
+{
+    enum { VTK_LINE = 3, VTK_QUAD = 9, VTK_HEXAHEDRON = 12 };
+    return cell_width == 2 ? VTK_LINE : cell_width == 4 ? VTK_QUAD : VTK_HEXAHEDRON;
+}
+
+uint64_t record_checksum(uint64_t seed, const void *data, size_t bytes)
+{
+    const uint64_t prime = UINT64_C(0x100000001b3);
+    const unsigned char *at = data;
+    uint64_t sum = seed;
+    while (bytes > 0) {
+        size_t taken = bytes < 8 ? bytes : 8;
+        uint64_t word = 0;
+        memcpy(&word, at, taken);
+        sum = (sum ^ word) * prime;
+        sum ^= sum >> 32; /* the product carries upwards only: without this the flips of two signs would cancel */
+        at += taken;
+        bytes -= taken;
+    }
+    return sum;
+}
+
+struct record_quiet record_quiet_begin(void)
+{
+    struct record_quiet before = {0};
+    (void)H5Eget_auto2(H5E_DEFAULT, &before.print, &before.context);
+    (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    return before;
+}
+
+void record_quiet_end(struct record_quiet before)
+{
+    (void)H5Eset_auto2(H5E_DEFAULT, before.print, before.context);
+}
+
+struct reason {
+    char *text;
+    size_t size;
+};
+
+static herr_t take_innermost(unsigned n, const H5E_error2_t *step, void *context)
+{
+    struct reason *reason = context;
+    if (n == 0 && step->desc != NULL) {
+        (void)snprintf(reason->text, reason->size, "%s", step->desc);
+    }
+    return 0;
+}
+
+void record_hdf5_reason(char *text, size_t size)
+{
+    struct reason reason = {text, size};
+    (void)snprintf(text, size, "no reason given");
+    (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_innermost, &reason);
+}

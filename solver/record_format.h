@@ -1,0 +1,57 @@
+/* What the writer and the reader of records must agree on. Private to record*.c. */
+#ifndef SOLVER_RECORD_FORMAT_H
+#define SOLVER_RECORD_FORMAT_H
+
+#include "solver/record.h"
+
+#include <hdf5.h>
+
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "checksums are little-endian, as on disk");
+
+#define RECORD_FORMAT "assay record 1"
+
+enum { RECORD_UNIT = 32, RECORD_PATH = 4096, RECORD_MAX_FIELDS = 64, RECORD_MAX_COLUMNS = 4096 };
+
+/* The fields without which a record is no record of ours; ends with a NULL name. */
+struct record_required {
+    const char *name;
+    int width;
+};
+extern const struct record_required record_required[];
+
+/* VTK's cell type (line 3, quad 9, hexahedron 12) of cells with 2, 4, 8 corners. */
+uint8_t record_vtk_type(int cell_width);
+
+/* A file ends with a seal: these eight bytes, then the checksum of all before them. HDF5's own checksums cover neither
+ * values nor all of the structure, and its library may crash on what is damaged, so it is shown no file whose seal is
+ * broken. HDF5 readers pass over the seal. */
+#define RECORD_SEAL "assaySUM"
+enum { RECORD_SEAL_SIZE = 16 };
+
+/* Like FNV-1a, eight bytes at a time: each step is one-to-one, so a single changed word always changes the sum. Sums
+ * chain where all parts but the last are whole words. */
+uint64_t record_checksum(uint64_t seed, const void *data, size_t bytes);
+#define RECORD_CHECKSUM_SEED UINT64_C(0xcbf29ce484222325)
+
+/* HDF5 prints its errors unless told otherwise; the solver never prints. */
+struct record_quiet {
+    H5E_auto2_t print;
+    void *context;
+};
+struct record_quiet record_quiet_begin(void);
+void record_quiet_end(struct record_quiet before);
+/* What HDF5 says of its last failure: the innermost reason. */
+void record_hdf5_reason(char *text, size_t size);
+
+/* Fills the record's history columns: one row per entry of `history` (NULL: no rows), components beyond dim left out.
+ */
+bool record_take_history(struct solver_record *record, const struct solver_history *history,
+                         struct solver_error *error);
+
+/* A record as the bytes of an HDF5 file; free() releases. */
+bool record_to_hdf5(const struct solver_record *record, void **bytes, size_t *size, struct solver_error *error);
+/* A record's XDMF description; `hdf5_name` is the file it describes, without folder. free() releases. */
+bool record_to_xdmf(const struct solver_record *record, const char *hdf5_name, char **text, size_t *size,
+                    struct solver_error *error);
+
+#endif
