@@ -56,7 +56,7 @@ static bool count_points(const struct solver_box *box, uint32_t points[3], size_
         if (!(spacings > 0.5) || spacings > 2e6 || fabs(spacings - round(spacings)) > 1e-6) {
             return solver_fail(error, SOLVER_BAD_INPUT,
                                "domain: edge %c of %g m is not a whole number of spacings of %g m (it is %g of them)",
-                               "XYZ"[axis], box->upper[axis] - box->lower[axis], box->spacing, spacings);
+                               "XYZ"[axis], box -> upper[axis] - box -> lower[axis], box -> spacing, spacings);
         }
         points[axis] = (uint32_t)lround(spacings) + 1;
         *count *= points[axis];
@@ -144,8 +144,8 @@ static void list_cells(struct solver_cloud *cloud, const uint32_t *particle_at)
         for (uint32_t j = 0; j < cells[1]; j++) {
             for (uint32_t i = 0; i < cells[0]; i++) {
                 for (size_t c = 0; c < width; c++) {
-                    size_t site = ((size_t)(k + corner[c][2]) * points[1] + j + corner[c][1]) * points[0] + i +
-                                  corner[c][0];
+                    size_t site =
+                        ((size_t)(k + corner[c][2]) * points[1] + j + corner[c][1]) * points[0] + i + corner[c][0];
                     *out++ = particle_at[site];
                 }
             }

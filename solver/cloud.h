@@ -10,24 +10,24 @@
 /* A particle's share of one face of the body. Particles on edges have two of these, in corners three. */
 struct solver_face_point {
     uint32_t particle;
-    uint32_t face;    /* 0..5: X0, X1, Y0, Y1, Z0, Z1 */
-    double area[3];   /* outward area vector [m^2; m in 2D; 1 in 1D] */
+    uint32_t face;  /* 0..5: X0, X1, Y0, Y1, Z0, Z1 */
+    double area[3]; /* outward area vector [m^2; m in 2D; 1 in 1D] */
 };
 
 struct solver_cloud {
     int dim;
-    size_t count;                         /* particles, ordered along a space-filling curve */
-    double spacing;                       /* [m] */
-    double *X;                            /* [count][dim] [m] */
-    double *V;                            /* [count] [m^dim]; sums to the body's volume, first moments exact */
-    uint32_t *tags;                       /* [count]; bit f: lies on face f */
+    size_t count;   /* particles, ordered along a space-filling curve */
+    double spacing; /* [m] */
+    double *X;      /* [count][dim] [m] */
+    double *V;      /* [count] [m^dim]; sums to the body's volume, first moments exact */
+    uint32_t *tags; /* [count]; bit f: lies on face f */
     size_t face_point_count;
     struct solver_face_point *face_point; /* [face_point_count] */
     uint32_t points[3];                   /* particles along each axis of the lattice */
     uint32_t *site;                       /* [count][dim] lattice indices of each particle */
     size_t cell_count;
-    uint32_t *cell;                       /* [cell_count][2^dim] particles of each lattice cell, in VTK's order for
-                                             line, quad and hexahedron: for pictures and files only */
+    uint32_t *cell; /* [cell_count][2^dim] particles of each lattice cell, in VTK's order for
+                       line, quad and hexahedron: for pictures and files only */
 };
 
 struct solver_box {

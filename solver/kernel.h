@@ -6,6 +6,10 @@
 #include "solver/cloud.h"
 #include "solver/graph.h"
 
+/* Relative margin by which supports are shortened, so that round-off does not decide which lattice neighbours at just
+ * that distance take part: none does (the kernel is zero there). */
+static const double solver_kernel_margin = 1e-9;
+
 /* The quadratic kernel without its normalisation, which the correction cancels: value and derivative at q = r/h in
  * [0, 2]; beyond 2 both are 0. */
 double solver_kernel(double q, double *derivative);

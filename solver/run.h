@@ -42,21 +42,21 @@ struct solver_history {
     size_t count;
     struct solver_totals *totals; /* [count] */
     size_t probe_count;
-    char (*probe_name)[64];       /* [probe_count] */
-    double (*probe_X)[3];         /* [probe_count] where the probed particle lies [m] */
-    double *probe_u;              /* [count][probe_count][3] displacement [m] */
-    double *probe_v;              /* [count][probe_count][3] velocity [m/s] */
+    char (*probe_name)[64]; /* [probe_count] */
+    double (*probe_X)[3];   /* [probe_count] where the probed particle lies [m] */
+    double *probe_u;        /* [count][probe_count][3] displacement [m] */
+    double *probe_v;        /* [count][probe_count][3] velocity [m/s] */
 };
 
 /* What a run is made of, for reports. */
 struct solver_facts {
     size_t particles, pairs, steps;
-    double spacing;             /* [m] */
-    double setup_seconds;       /* cloud and stencil */
-    double seconds;             /* time loop alone */
-    double bytes_per_particle;  /* all arrays of state, stencil and integrator, over the particle count */
-    double state_bytes;         /* fields of the scheme alone, per particle */
-    double stencil_residual;    /* largest relative violation of closure and linear exactness */
+    double spacing;            /* [m] */
+    double setup_seconds;      /* cloud and stencil */
+    double seconds;            /* time loop alone */
+    double bytes_per_particle; /* all arrays of state, stencil and integrator, over the particle count */
+    double state_bytes;        /* fields of the scheme alone, per particle */
+    double stencil_residual;   /* largest relative violation of closure and linear exactness */
     int threads;
 };
 

@@ -168,8 +168,10 @@ bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const stru
                 }
             }
             if (pass == 0 && !solver_small_invert(dim, moment)) {
-                return solver_fail(error, SOLVER_BAD_INPUT, "least-squares gradient: neighbours of particle %zu lie "
-                                   "in a plane; choose a larger support", a);
+                return solver_fail(error, SOLVER_BAD_INPUT,
+                                   "least-squares gradient: neighbours of particle %zu lie "
+                                   "in a plane; choose a larger support",
+                                   a);
             }
         }
     }

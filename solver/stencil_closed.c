@@ -23,10 +23,6 @@ enum { ROUNDS = 12 };
 static const double shift = 1e-11;
 /* Residual, relative to the largest entry of C, that counts as round-off. */
 static const double round_off = 2e-14;
-/* Pairs further apart than this many spacings keep their first guess: the nearer ones suffice to meet the constraints
- * in 2D and 3D, and the factor of M is then no larger for a wide support than for a narrow one (25^3 particles, support
- * 2.1: a third of the time). */
-static const double moved_within = 1.9;
 /* Residual that is still accepted, with its size reported: NUMERICS.md found no effect on errors at 1e-6. */
 static const double acceptable = 1e-9;
 
@@ -79,9 +75,6 @@ static cholmod_sparse *assemble(struct projection *work)
         for (size_t j = 0; j < width; j++) {
             start[b * width + j] = filled;
             for (size_t ba = graph->row[b]; ba < graph->row[b + 1] && graph->neighbour[ba] < b; ba++) {
-                if (work->weight[ba] == 0.0) {
-                    continue;
-                }
                 /* as seen from a: pair vector g = (1, d/2) for a and (-1, d/2) for b, d = X_b - X_a */
                 size_t a = graph->neighbour[ba];
                 double g[4] = {1.0, 0, 0, 0};
@@ -136,7 +129,8 @@ static double residuals(struct projection *work, const double *area)
     return worst;
 }
 
-/* C += w (alpha_a - alpha_b + d/2 . (beta_a + beta_b)) for one component, both directions of a pair exactly opposite. */
+/* C += w (alpha_a - alpha_b + d/2 . (beta_a + beta_b)) for one component, both directions of a pair exactly opposite.
+ */
 static void change(struct projection *work, size_t k, const double *multiplier)
 {
     const struct solver_graph *graph = &work->stencil->graph;
@@ -262,8 +256,7 @@ static bool guess(struct projection *work, double radius, struct solver_error *e
                     cloud->V[a] * gradient[ab * dim + k] - cloud->V[b] * gradient[ba * dim + k];
             }
             double slope;
-            bool moved = dim == 1 || sqrt(square) < moved_within * cloud->spacing;
-            work->weight[ab] = moved ? solver_kernel(2.0 * sqrt(square) / radius, &slope) : 0.0;
+            work->weight[ab] = solver_kernel(2.0 * sqrt(square) / radius, &slope);
         }
     }
     free(gradient);
@@ -273,7 +266,7 @@ static bool guess(struct projection *work, double radius, struct solver_error *e
 bool solver_stencil_closed(const struct solver_cloud *cloud, double support, struct solver_stencil *stencil,
                            struct solver_error *error)
 {
-    double radius = support * cloud->spacing;
+    double radius = support * cloud->spacing * (1.0 - solver_kernel_margin);
     size_t dim = (size_t)cloud->dim;
     struct projection work = {.cloud = cloud, .stencil = stencil};
     if (!solver_graph_build(cloud, radius, &stencil->graph, error) || !solver_stencil_reserve(stencil, cloud, error)) {

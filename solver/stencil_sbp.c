@@ -82,7 +82,7 @@ static size_t list_pairs(const struct solver_cloud *cloud, const struct line_ope
         uint32_t points = cloud->points[axis];
         uint32_t first = site[axis] > line->reach ? site[axis] - line->reach : 0;
         for (uint32_t j = first; j <= site[axis] + line->reach && j < points; j++) {
-            double Q = j == site[axis] ? 0.0
+            double Q = j == site[axis]  ? 0.0
                        : j > site[axis] ? entry(line, site[axis], j, points)
                                         : -entry(line, j, site[axis], points);
             if (Q != 0.0) {
@@ -123,7 +123,7 @@ static bool check(const struct solver_cloud *cloud, const struct line_operator *
             return solver_fail(error, SOLVER_BAD_INPUT,
                                "stencil: %s needs at least %u particles along every edge, edge %c has %u; choose a "
                                "larger n, or stencil sbp2 or closed",
-                               line->name, line->fewest, "XYZ"[axis], cloud->points[axis]);
+                               line->name, line->fewest, "XYZ"[axis], cloud -> points[axis]);
         }
     }
     double tolerance = 1e-9 * cloud->spacing;
@@ -167,8 +167,8 @@ static bool build(const struct solver_cloud *cloud, const struct line_operator *
         graph->row[a + 1] = graph->row[a] + list_pairs(cloud, line, particle_at, a, pairs);
     }
     ok = ok &&
-         solver_alloc((void **)&graph->neighbour, graph->row[cloud->count], sizeof *graph->neighbour,
-                      "neighbour graph", error) &&
+         solver_alloc((void **)&graph->neighbour, graph->row[cloud->count], sizeof *graph->neighbour, "neighbour graph",
+                      error) &&
          solver_stencil_reserve(stencil, cloud, error);
     for (size_t a = 0; ok && a < cloud->count; a++) {
         size_t found = list_pairs(cloud, line, particle_at, a, pairs);

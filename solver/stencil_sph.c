@@ -10,7 +10,7 @@ bool solver_stencil_sph(const struct solver_cloud *cloud, double support, struct
                         struct solver_error *error)
 {
     size_t dim = (size_t)cloud->dim;
-    double radius = support * cloud->spacing;
+    double radius = support * cloud->spacing * (1.0 - solver_kernel_margin);
     double *gradient = NULL;
     bool ok = solver_graph_build(cloud, radius, &stencil->graph, error) &&
               solver_stencil_reserve(stencil, cloud, error) &&

@@ -1,0 +1,185 @@
+/* One source text, compiled for DIM = 1, 2 and 3: names and padded vector types.
+ *
+ * Layout in memory: a vector field is [count][LANES], a tensor field [count][DIM][LANES], column by column
+ * (T[a][I] = T e_I), lanes beyond DIM are zero. A vector is then one load, P C = sum_I P[I] C_I is DIM multiply-adds,
+ * and what a pair needs of its neighbour is contiguous. */
+#ifndef SOLVER_DIM_H
+#define SOLVER_DIM_H
+
+#include <stddef.h>
+
+#define SOLVER_DIM_PASTE(name, dim)  name##_##dim##d
+#define SOLVER_DIM_EXPAND(name, dim) SOLVER_DIM_PASTE(name, dim)
+/* DIM_NAME(f) is f_1d, f_2d or f_3d */
+#define DIM_NAME(name) SOLVER_DIM_EXPAND(name, DIM)
+
+#if DIM == 3
+enum { LANES = 4 };
+typedef double vec __attribute__((vector_size(4 * sizeof(double))));
+#elif DIM == 2
+enum { LANES = 2 };
+typedef double vec __attribute__((vector_size(2 * sizeof(double))));
+#elif DIM == 1
+enum { LANES = 1 };
+typedef double vec __attribute__((vector_size(1 * sizeof(double))));
+#else
+#error "DIM must be 1, 2 or 3"
+#endif
+
+static inline vec load(const double *from)
+{
+    return *(const vec *)from;
+}
+
+static inline void store(double *to, vec value)
+{
+    *(vec *)to = value;
+}
+
+static inline double dot(vec a, vec b)
+{
+    vec product = a * b;
+    double sum = product[0];
+    for (int i = 1; i < DIM; i++) {
+        sum += product[i];
+    }
+    return sum;
+}
+
+/* A tensor by columns. */
+struct tensor {
+    vec column[DIM];
+};
+
+static inline struct tensor load_tensor(const double *from)
+{
+    struct tensor T;
+    for (int I = 0; I < DIM; I++) {
+        T.column[I] = load(from + I * LANES);
+    }
+    return T;
+}
+
+static inline void store_tensor(double *to, struct tensor T)
+{
+    for (int I = 0; I < DIM; I++) {
+        store(to + I * LANES, T.column[I]);
+    }
+}
+
+static inline struct tensor identity(void)
+{
+    struct tensor T = {{{0}}};
+    for (int I = 0; I < DIM; I++) {
+        T.column[I][I] = 1.0;
+    }
+    return T;
+}
+
+static inline double trace(struct tensor A)
+{
+    double sum = A.column[0][0];
+    for (int I = 1; I < DIM; I++) {
+        sum += A.column[I][I];
+    }
+    return sum;
+}
+
+/* A : B */
+static inline double contract(struct tensor A, struct tensor B)
+{
+    vec sum = A.column[0] * B.column[0];
+    for (int I = 1; I < DIM; I++) {
+        sum += A.column[I] * B.column[I];
+    }
+    double total = sum[0];
+    for (int i = 1; i < DIM; i++) {
+        total += sum[i];
+    }
+    return total;
+}
+
+static inline struct tensor transpose(struct tensor A)
+{
+    struct tensor T = {{{0}}};
+    for (int I = 0; I < DIM; I++) {
+        for (int i = 0; i < DIM; i++) {
+            T.column[i][I] = A.column[I][i];
+        }
+    }
+    return T;
+}
+
+#if DIM == 3
+static inline vec cross(vec a, vec b)
+{
+    return (vec){a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.0};
+}
+#endif
+
+/* The derivative of the in-plane cofactor: A x B of 000_e9ec29e1bde7947d.txt (section 2) in 3D, so that cof F =
+ * 1/2 F x F; below 3D the cofactor is linear in F (2D) or constant (1D) and A does not enter. */
+static inline struct tensor tensor_cross(struct tensor A, struct tensor B)
+{
+#if DIM == 3
+    struct tensor T = {{cross(A.column[1], B.column[2]) + cross(B.column[1], A.column[2]),
+                        cross(A.column[2], B.column[0]) + cross(B.column[2], A.column[0]),
+                        cross(A.column[0], B.column[1]) + cross(B.column[0], A.column[1])}};
+#elif DIM == 2
+    (void)A;
+    struct tensor T = {{{B.column[1][1], -B.column[1][0]}, {-B.column[0][1], B.column[0][0]}}};
+#else
+    (void)A;
+    (void)B;
+    struct tensor T = {{{0.0}}};
+#endif
+    return T;
+}
+
+static inline struct tensor cofactor(struct tensor F)
+{
+#if DIM == 3
+    struct tensor H = {
+        {cross(F.column[1], F.column[2]), cross(F.column[2], F.column[0]), cross(F.column[0], F.column[1])}};
+    return H;
+#elif DIM == 2
+    return tensor_cross(F, F);
+#else
+    (void)F;
+    return identity();
+#endif
+}
+
+static inline double determinant(struct tensor F)
+{
+#if DIM == 3
+    return dot(F.column[0], cross(F.column[1], F.column[2]));
+#elif DIM == 2
+    return F.column[0][0] * F.column[1][1] - F.column[1][0] * F.column[0][1];
+#else
+    return F.column[0][0];
+#endif
+}
+
+/* Row-major [DIM][DIM] of plain numbers to columns and back. */
+static inline struct tensor from_rows(const double *rows)
+{
+    struct tensor T = {{{0}}};
+    for (int i = 0; i < DIM; i++) {
+        for (int I = 0; I < DIM; I++) {
+            T.column[I][i] = rows[i * DIM + I];
+        }
+    }
+    return T;
+}
+
+static inline void to_rows(struct tensor T, double *rows)
+{
+    for (int i = 0; i < DIM; i++) {
+        for (int I = 0; I < DIM; I++) {
+            rows[i * DIM + I] = T.column[I][i];
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,148 @@
+#include "solver/faces.h"
+
+#include "solver/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Which axes a face constrains, by its kind: the normal, the others, or all. */
+static unsigned constrained_axes(enum solver_face_kind kind, unsigned normal, unsigned dim)
+{
+    unsigned all = (1U << dim) - 1U;
+    switch (kind) {
+    case SOLVER_SYMMETRIC:
+        return 1U << normal;
+    case SOLVER_SKEW:
+        return all & ~(1U << normal);
+    case SOLVER_CLAMPED:
+    case SOLVER_MOTION:
+        return all;
+    case SOLVER_FREE:
+    case SOLVER_TRACTION:
+        break;
+    }
+    return 0;
+}
+
+bool solver_faces_create(const struct solver_scene *scene, const struct solver_stencil *stencil,
+                         const struct solver_cloud *cloud, struct solver_faces *faces, struct solver_error *error)
+{
+    unsigned dim = (unsigned)cloud->dim;
+    *faces = (struct solver_faces){.dim = cloud->dim, .body_force = solver_scene_has(scene, SOLVER_BODY_FORCE)};
+    if (!solver_alloc((void **)&faces->constraint, stencil->face_point_count, sizeof *faces->constraint, "constraints",
+                      error) ||
+        !solver_alloc((void **)&faces->load, stencil->face_point_count, sizeof *faces->load, "loads", error)) {
+        return false;
+    }
+    for (size_t a = 0; a < cloud->count; a++) {
+        unsigned axes = 0;
+        int motion = -1;
+        bool clamped = false;
+        for (unsigned face = 0; face < 2 * dim; face++) {
+            if ((cloud->tags[a] >> face & 1U) == 0) {
+                continue;
+            }
+            axes |= constrained_axes(scene->face[face], face / 2, dim);
+            clamped = clamped || scene->face[face] == SOLVER_CLAMPED;
+            motion = scene->face[face] == SOLVER_MOTION && motion < 0 ? (int)face : motion;
+        }
+        if (axes == 0) {
+            continue;
+        }
+        struct solver_constraint *constraint = &faces->constraint[faces->constraint_count++];
+        constraint->particle = (uint32_t)a;
+        constraint->motion = clamped ? -1 : motion; /* where a clamped face meets a moving one, it holds */
+        for (unsigned axis = 0; axis < dim; axis++) {
+            constraint->keep[axis * dim + axis] = (axes >> axis & 1U) != 0 ? 0.0 : 1.0;
+        }
+    }
+    for (size_t i = 0; i < stencil->face_point_count; i++) {
+        if (scene->face[stencil->face_point[i].face] == SOLVER_TRACTION) {
+            faces->load[faces->load_count++] = stencil->face_point[i];
+        }
+    }
+    return true;
+}
+
+void solver_faces_free(struct solver_faces *faces)
+{
+    free(faces->constraint);
+    free(faces->load);
+    *faces = (struct solver_faces){.constraint = NULL};
+}
+
+static void place(const struct solver_cloud *cloud, size_t a, double X[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        X[axis] = axis < cloud->dim ? cloud->X[a * (size_t)cloud->dim + (size_t)axis] : 0.0;
+    }
+}
+
+bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_scene *scene,
+                            const struct solver_cloud *cloud, double rho, double t, size_t lanes, double *p,
+                            struct solver_error *error)
+{
+    size_t dim = (size_t)faces->dim;
+    for (size_t c = 0; c < faces->constraint_count; c++) {
+        const struct solver_constraint *constraint = &faces->constraint[c];
+        double *at = p + constraint->particle * lanes;
+        double free_part[3] = {0};
+        double velocity[3] = {0};
+        if (constraint->motion >= 0) {
+            double X[3];
+            place(cloud, constraint->particle, X);
+            if (!solver_scene_eval(scene, (enum solver_formula)(SOLVER_FACE_X0 + constraint->motion), X, t, velocity,
+                                   dim, error)) {
+                return false;
+            }
+        }
+        for (size_t i = 0; i < dim; i++) {
+            for (size_t j = 0; j < dim; j++) {
+                free_part[i] += constraint->keep[i * dim + j] * at[j];
+            }
+        }
+        for (size_t i = 0; i < dim; i++) {
+            at[i] = free_part[i] + rho * velocity[i];
+        }
+    }
+    return true;
+}
+
+bool solver_faces_load(const struct solver_faces *faces, const struct solver_scene *scene,
+                       const struct solver_cloud *cloud, const struct solver_stencil *stencil, double t, size_t lanes,
+                       const double *p, double rho, double *p_rate, double *power, struct solver_error *error)
+{
+    size_t dim = (size_t)faces->dim;
+    double X[3];
+    double value[3];
+    *power = 0.0;
+    for (size_t i = 0; i < faces->load_count; i++) {
+        const struct solver_face_point *load = &faces->load[i];
+        size_t a = load->particle;
+        double area = 0.0;
+        place(cloud, a, X);
+        if (!solver_scene_eval(scene, (enum solver_formula)(SOLVER_FACE_X0 + (int)load->face), X, t, value, dim,
+                               error)) {
+            return false;
+        }
+        for (size_t axis = 0; axis < dim; axis++) {
+            area += load->area[axis] * load->area[axis];
+        }
+        area = sqrt(area);
+        for (size_t axis = 0; axis < dim; axis++) {
+            p_rate[a * lanes + axis] += area * value[axis] / stencil->V[a];
+            *power += area * value[axis] * p[a * lanes + axis] / rho;
+        }
+    }
+    for (size_t a = 0; faces->body_force && a < cloud->count; a++) {
+        place(cloud, a, X);
+        if (!solver_scene_eval(scene, SOLVER_BODY_FORCE, X, t, value, dim, error)) {
+            return false;
+        }
+        for (size_t axis = 0; axis < dim; axis++) {
+            p_rate[a * lanes + axis] += value[axis];
+            *power += stencil->V[a] * value[axis] * p[a * lanes + axis] / rho;
+        }
+    }
+    return true;
+}

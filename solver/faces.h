@@ -1,0 +1,38 @@
+/* Boundary conditions: constraints on the momentum of particles, and loads. */
+#ifndef SOLVER_FACES_H
+#define SOLVER_FACES_H
+
+#include "solver/scene.h"
+#include "solver/stencil.h"
+
+/* A particle whose momentum is not free. p <- keep p + rho v(X, t). A particle on several faces takes the constraints
+ * of all of them. */
+struct solver_constraint {
+    uint32_t particle;
+    int motion;     /* face whose velocity formula it follows, or -1 */
+    double keep[9]; /* [dim][dim] projection onto the directions left free */
+};
+
+struct solver_faces {
+    int dim;
+    size_t constraint_count;
+    struct solver_constraint *constraint; /* by particle */
+    size_t load_count;
+    struct solver_face_point *load; /* face points that carry a traction formula */
+    bool body_force;
+};
+
+bool solver_faces_create(const struct solver_scene *scene, const struct solver_stencil *stencil,
+                         const struct solver_cloud *cloud, struct solver_faces *faces, struct solver_error *error);
+void solver_faces_free(struct solver_faces *faces);
+
+/* Enforces the constraints on p, padded vectors with the given number of lanes, at time t. */
+bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_scene *scene,
+                            const struct solver_cloud *cloud, double rho, double t, size_t lanes, double *p,
+                            struct solver_error *error);
+/* Adds tractions and body forces at time t to p_rate; *power [W] becomes their power with momenta p. */
+bool solver_faces_load(const struct solver_faces *faces, const struct solver_scene *scene,
+                       const struct solver_cloud *cloud, const struct solver_stencil *stencil, double t, size_t lanes,
+                       const double *p, double rho, double *p_rate, double *power, struct solver_error *error);
+
+#endif

@@ -1,0 +1,51 @@
+/* Materials: strain energy per unit reference volume W(F, H, J), convex in its arguments, with what follows from it.
+ *
+ * Functions exist per dimension. F, H and P are the in-plane [dim][dim] blocks, row by row; below 3D the body is in
+ * plane (2D) or uniaxial (1D) strain: F is the identity out of the plane. A material with `linear` kinematics uses the
+ * linearised cofactor and Jacobian, J = 1 + tr(F - I), so that it is the linearisation of every evolved set. */
+#ifndef SOLVER_MATERIAL_H
+#define SOLVER_MATERIAL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct solver_material_constants {
+    double rho;               /* [kg/m^3] */
+    double mu, lambda, kappa; /* shear, Lame's first and bulk modulus [Pa] */
+    double cp, cs;            /* p- and s-wave speed at rest [m/s] */
+};
+
+/* From Young's modulus [Pa], Poisson's ratio in (-1, 0.5) and density [kg/m^3]. */
+struct solver_material_constants solver_material_constants(double E, double nu, double rho);
+
+struct solver_material {
+    bool linear;
+    /* W [J/m^3] */
+    double (*energy)(const struct solver_material_constants *material, const double *F, const double *H, double J);
+    /* P = dW/dF + dW/dH x F + dW/dJ H [Pa] */
+    void (*stress)(const struct solver_material_constants *material, const double *F, const double *H, double J,
+                   double *P);
+    /* The component of P normal to the plane [Pa]; below 3D only. */
+    double (*stress_normal)(const struct solver_material_constants *material, const double *F, double J);
+    /* A_iIjJ = dP_iI/dF_jJ with H = cof F, J = det F: [dim]^4 [Pa] */
+    void (*tangent)(const struct solver_material_constants *material, const double *F, double *A);
+    /* Speeds [m/s] of the dim plane waves along the reference direction N, increasing. */
+    void (*wave_speeds)(const struct solver_material_constants *material, const double *F, const double *N,
+                        double *speeds);
+    /* The hot loop: P of particles begin to end - 1, padded columns (dim.h). H, J NULL: those of F. */
+    void (*stress_range)(const struct solver_material_constants *material, size_t begin, size_t end, const double *F,
+                         const double *H, const double *J, double *P);
+    /* An upper bound of the wave speeds [m/s] in all directions over particles begin to end - 1; exact at rest. */
+    double (*fastest)(const struct solver_material_constants *material, size_t begin, size_t end, const double *F);
+};
+
+struct solver_material_model {
+    const char *name, *summary;
+    const struct solver_material *in[3]; /* for 1, 2, 3 dimensions */
+};
+
+/* The table, ends with a NULL name. */
+const struct solver_material_model *solver_material_models(void);
+const struct solver_material_model *solver_material_find(const char *name);
+
+#endif

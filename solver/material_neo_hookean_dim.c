@@ -1,0 +1,177 @@
+/* The polyconvex neo-Hookean model of 003_253cac78b077eaad.txt eq. 51, 52:
+ *     W = mu/2 (J^(-2/3) F:F - 3) + kappa/2 (J - 1)^2
+ *     dW/dF = mu J^(-2/3) F,   dW/dH = 0,   dW/dJ = -mu/3 J^(-5/3) F:F + kappa (J - 1)
+ * F:F counts the directions out of the plane. */
+#include "solver/dim.h"
+#include "solver/material.h"
+
+#include <math.h>
+
+static inline double invariant(struct tensor F)
+{
+    return contract(F, F) + (3 - DIM);
+}
+
+/* mu J^(-2/3) and dW/dJ */
+static inline double coefficients(const struct solver_material_constants *material, double FF, double J, double *by_J)
+{
+    double shear = material->mu / cbrt(J * J);
+    *by_J = material->kappa * (J - 1.0) - shear * FF / (3.0 * J);
+    return shear;
+}
+
+static double energy(const struct solver_material_constants *material, const double *F, const double *H, double J)
+{
+    (void)H;
+    double FF = invariant(from_rows(F));
+    return 0.5 * material->mu * (FF / cbrt(J * J) - 3.0) + 0.5 * material->kappa * (J - 1.0) * (J - 1.0);
+}
+
+static inline struct tensor stress_of(const struct solver_material_constants *material, struct tensor F,
+                                      struct tensor H, double J)
+{
+    double by_J;
+    double shear = coefficients(material, invariant(F), J, &by_J);
+    struct tensor P;
+    for (int I = 0; I < DIM; I++) {
+        P.column[I] = shear * F.column[I] + by_J * H.column[I];
+    }
+    return P;
+}
+
+static void stress(const struct solver_material_constants *material, const double *F, const double *H, double J,
+                   double *P)
+{
+    to_rows(stress_of(material, from_rows(F), from_rows(H), J), P);
+}
+
+static double stress_normal(const struct solver_material_constants *material, const double *F, double J)
+{
+    double by_J;
+    double shear = coefficients(material, invariant(from_rows(F)), J, &by_J);
+    return shear + by_J * J; /* F = 1 and H = J out of the plane */
+}
+
+static void tangent(const struct solver_material_constants *material, const double *rows, double *A)
+{
+    struct tensor F = from_rows(rows);
+    struct tensor H = cofactor(F);
+    double J = determinant(F);
+    double FF = invariant(F);
+    double by_J;
+    double shear = coefficients(material, FF, J, &by_J);
+    double mixed = -2.0 / 3.0 * shear / J;
+    double by_JJ = material->kappa + 5.0 / 9.0 * shear * FF / (J * J);
+    for (int j = 0; j < DIM; j++) {
+        for (int K = 0; K < DIM; K++) {
+            struct tensor unit = {{{0}}};
+            unit.column[K][j] = 1.0;
+            struct tensor dH = tensor_cross(F, unit);
+            for (int i = 0; i < DIM; i++) {
+                for (int I = 0; I < DIM; I++) {
+                    A[((i * DIM + I) * DIM + j) * DIM + K] =
+                        shear * (i == j && I == K) + by_J * dH.column[I][i] +
+                        mixed * (F.column[I][i] * H.column[K][j] + H.column[I][i] * F.column[K][j]) +
+                        by_JJ * H.column[I][i] * H.column[K][j];
+                }
+            }
+        }
+    }
+}
+
+/* Acoustic tensor, with f = F N, h = H N (f . h = J, and cof(F + u (x) N) N = H N for any u):
+ *     Q = shear I + mixed (f (x) h + h (x) f) + by_JJ h (x) h
+ * Eigenvalues: shear across f and h, and shear + those of the rank-2 part, from its trace and determinant. Where only
+ * norms of f and h are known this bounds the largest from above. */
+static double largest(double shear, double mixed, double by_JJ, double J, double ff, double hh, double *smallest)
+{
+    double half_trace = 0.5 * (2.0 * mixed * J + by_JJ * hh);
+    double minus_determinant = mixed * mixed * fmax(0.0, ff * hh - J * J);
+    double root = sqrt(half_trace * half_trace + minus_determinant);
+    *smallest = shear + half_trace - root;
+    return shear + half_trace + root;
+}
+
+static void wave_speeds(const struct solver_material_constants *material, const double *rows, const double *N,
+                        double *speeds)
+{
+    struct tensor F = from_rows(rows);
+    struct tensor H = cofactor(F);
+    double J = determinant(F);
+    double FF = invariant(F);
+    double by_J;
+    double shear = coefficients(material, FF, J, &by_J);
+    vec f = {0};
+    vec h = {0};
+    for (int I = 0; I < DIM; I++) {
+        f += F.column[I] * N[I];
+        h += H.column[I] * N[I];
+    }
+    double low;
+    double high = largest(shear, -2.0 / 3.0 * shear / J, material->kappa + 5.0 / 9.0 * shear * FF / (J * J), J,
+                          dot(f, f), dot(h, h), &low);
+    speeds[DIM - 1] = sqrt(high / material->rho);
+    if (DIM > 1) {
+        speeds[0] = sqrt(low / material->rho);
+    }
+    if (DIM > 2) {
+        speeds[1] = sqrt(shear / material->rho);
+        if (speeds[1] < speeds[0]) {
+            double kept = speeds[0];
+            speeds[0] = speeds[1];
+            speeds[1] = kept;
+        }
+    }
+}
+
+static void stress_range(const struct solver_material_constants *material, size_t begin, size_t end, const double *F,
+                         const double *H, const double *J, double *P)
+{
+    for (size_t a = begin; a < end; a++) {
+        struct tensor at = load_tensor(F + a * DIM * LANES);
+        struct tensor cof = H != NULL ? load_tensor(H + a * DIM * LANES) : cofactor(at);
+        double jacobian = J != NULL ? J[a] : determinant(at);
+        store_tensor(P + a * DIM * LANES, stress_of(material, at, cof, jacobian));
+    }
+}
+
+/* Largest row sum of |A^T A|: at least its largest eigenvalue, and equal to it at rest. */
+static double square_bound(struct tensor A)
+{
+    double bound = 0.0;
+    for (int I = 0; I < DIM; I++) {
+        double sum = 0.0;
+        for (int J = 0; J < DIM; J++) {
+            sum += fabs(dot(A.column[I], A.column[J]));
+        }
+        bound = fmax(bound, sum);
+    }
+    return bound;
+}
+
+static double fastest(const struct solver_material_constants *material, size_t begin, size_t end, const double *F)
+{
+    double square = 0.0;
+    for (size_t a = begin; a < end; a++) {
+        struct tensor at = load_tensor(F + a * DIM * LANES);
+        double J = determinant(at);
+        double FF = invariant(at);
+        double by_J;
+        double shear = coefficients(material, FF, J, &by_J);
+        double low;
+        square = fmax(square, largest(shear, -2.0 / 3.0 * shear / J, material->kappa + 5.0 / 9.0 * shear * FF / (J * J),
+                                      J, square_bound(at), square_bound(cofactor(at)), &low));
+    }
+    return sqrt(square / material->rho);
+}
+
+const struct solver_material DIM_NAME(solver_neo_hookean) = {
+    .linear = false,
+    .energy = energy,
+    .stress = stress,
+    .stress_normal = stress_normal,
+    .tangent = tangent,
+    .wave_speeds = wave_speeds,
+    .stress_range = stress_range,
+    .fastest = fastest,
+};

@@ -1,0 +1,55 @@
+/* The pair loops of the mixed total-Lagrangian Upwind method (000_e9ec29e1bde7947d.txt section 3 and 4), compiled per
+ * dimension. Fields are padded columns (dim.h). */
+#ifndef SOLVER_UPWIND_H
+#define SOLVER_UPWIND_H
+
+#include "solver/material.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct solver_upwind {
+    /* stencil (stencil.h) */
+    const size_t *row;
+    const uint32_t *neighbour;
+    const double *pair, *transposed, *row_sum, *V;
+    const double *least_squares; /* NULL: reconstruct with the stencil's own gradient */
+    const double *X;             /* padded vectors [m] */
+
+    /* What the scene asks for. */
+    const struct solver_material *material;
+    struct solver_material_constants constants;
+    double rho;
+    double cp, cs;    /* wave speeds of the Riemann dissipation [m/s] (eq. 28) */
+    bool evolves_J;   /* {p,F,J} and {p,F,H,J} */
+    bool evolves_H;   /* {p,F,H,J} */
+    bool frozen;      /* linear kinematics: H = I in the equation of J, normals n = N */
+    bool reconstruct; /* linear reconstruction (eq. 34); without it the dissipation is of first order */
+
+    /* State; NULL where the scene does not ask for it. */
+    double *p, *x, *F, *H, *J; /* evolved */
+    double *p_rate, *x_rate, *F_rate, *H_rate, *J_rate;
+    double *P;          /* stress */
+    double *cofactor;   /* H, or cof F where H is not evolved but the equation of J needs it */
+    double *p_gradient; /* tensor: least-squares gradient of p; NULL: rho F_rate serves */
+    double *P_gradient; /* [count][DIM (derivative)] tensors; only for the dissipation of J */
+};
+
+struct solver_upwind_loops {
+    size_t lanes;
+    /* F_rate = grad v (eq. 38b), x_rate = v, and the gradients that the reconstruction needs. */
+    void (*gradients)(const struct solver_upwind *work, size_t begin, size_t end);
+    /* p_rate without tractions and body forces (eq. 38a), H_rate, J_rate (eq. 38c, 38d). Reads the gradients of
+     * neighbours: all of them must be there. */
+    void (*rates)(const struct solver_upwind *work, size_t begin, size_t end);
+    /* Stress and, where needed, cofactor from the state. */
+    void (*stresses)(const struct solver_upwind *work, size_t begin, size_t end);
+    /* First particle in [begin, end) whose state is broken (NaN, or J <= 0), else end. */
+    size_t (*first_broken)(const struct solver_upwind *work, size_t begin, size_t end);
+    /* H and J of F, linearised for a material with linear kinematics; either may be NULL. */
+    void (*measures)(bool linear, size_t begin, size_t end, const double *F, double *H, double *J);
+};
+
+extern const struct solver_upwind_loops solver_upwind_1d, solver_upwind_2d, solver_upwind_3d;
+
+#endif

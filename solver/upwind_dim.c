@@ -1,0 +1,246 @@
+#include "solver/upwind.h"
+
+#include "solver/dim.h"
+
+#include <math.h>
+
+enum { TENSOR = DIM * LANES, PAIR = DIM + 1 };
+
+/* sum_b (f_b - f_a) w_ab of a vector field, weights [pairs] with the given stride. */
+static inline struct tensor vector_gradient(const struct solver_upwind *work, size_t a, const double *field,
+                                            const double *weights, size_t stride)
+{
+    struct tensor G = {{{0}}};
+    vec f_a = load(field + a * LANES);
+    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+        const double *w = weights + ab * stride;
+        vec difference = load(field + (size_t)work->neighbour[ab] * LANES) - f_a;
+        for (int I = 0; I < DIM; I++) {
+            G.column[I] += difference * w[I];
+        }
+    }
+    return G;
+}
+
+/* The same of the stress: DIM tensors, derivative along each reference axis, scaled. */
+static inline void stress_gradient(const struct solver_upwind *work, size_t a, const double *weights, size_t stride,
+                                   double scale)
+{
+    struct tensor G[DIM] = {{{{0}}}};
+    struct tensor P_a = load_tensor(work->P + a * TENSOR);
+    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+        const double *w = weights + ab * stride;
+        const double *P_b = work->P + (size_t)work->neighbour[ab] * TENSOR;
+        for (int column = 0; column < DIM; column++) {
+            vec difference = load(P_b + column * LANES) - P_a.column[column];
+            for (int I = 0; I < DIM; I++) {
+                G[I].column[column] += difference * w[I];
+            }
+        }
+    }
+    for (int I = 0; I < DIM; I++) {
+        for (int column = 0; column < DIM; column++) {
+            store(work->P_gradient + (a * DIM + (size_t)I) * TENSOR + column * LANES, scale * G[I].column[column]);
+        }
+    }
+}
+
+static void gradients(const struct solver_upwind *work, size_t begin, size_t end)
+{
+    double per_rho = 1.0 / work->rho;
+    for (size_t a = begin; a < end; a++) {
+        double half_per_V = 0.5 / work->V[a];
+        struct tensor G = vector_gradient(work, a, work->p, work->pair, PAIR);
+        for (int I = 0; I < DIM; I++) {
+            store(work->F_rate + a * TENSOR + I * LANES, G.column[I] * (half_per_V * per_rho));
+        }
+        store(work->x_rate + a * LANES, load(work->p + a * LANES) * per_rho);
+        if (work->p_gradient != NULL) {
+            store_tensor(work->p_gradient + a * TENSOR, vector_gradient(work, a, work->p, work->least_squares, DIM));
+        }
+        if (work->P_gradient != NULL && work->least_squares != NULL) {
+            stress_gradient(work, a, work->least_squares, DIM, 1.0);
+        } else if (work->P_gradient != NULL) {
+            stress_gradient(work, a, work->pair, PAIR, half_per_V);
+        }
+    }
+}
+
+/* Sums over the neighbours of one particle. */
+struct sums {
+    vec force;       /* twice the internal force: sum_b P_b D_ab + P_a sum_b C_ab */
+    vec dissipation; /* twice V_a D(p_a) (eq. 30) */
+    double volume;   /* 2 cp rho V_a D(J_a) (eq. 30) */
+};
+
+/* Upwind flux of p across the pair: A S (p+ - p-), twice (eq. 27, 28), with the states reconstructed at mid-distance.
+ * n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) = along (along . jump) / |along|^2. */
+static inline vec momentum_flux(const struct solver_upwind *work, vec jump, vec along, double face)
+{
+    double normal = dot(along, jump) / dot(along, along);
+    return face * (work->cs * jump + ((work->cp - work->cs) * normal) * along);
+}
+
+/* Upwind flux of J (eq. 27, 28, 30, 33): n . (P+ - P-) N times n . H^Ave N times the face measure. Eq. 33 as printed
+ * has the sign that would feed energy in; this is that of eq. 30. The measure A N stands for C_ab, as in the flux of
+ * p: wide stencils have pairs with N . C < 0. */
+static inline double volume_flux(const struct solver_upwind *work, size_t a, size_t b, vec distance, vec along,
+                                 double face, bool reconstruct)
+{
+    vec traction = {0};
+    for (int I = 0; I < DIM; I++) {
+        vec jump = load(work->P + b * TENSOR + I * LANES) - load(work->P + a * TENSOR + I * LANES);
+        if (reconstruct) {
+            for (int K = 0; K < DIM; K++) {
+                vec slope = load(work->P_gradient + (a * DIM + (size_t)K) * TENSOR + I * LANES) +
+                            load(work->P_gradient + (b * DIM + (size_t)K) * TENSOR + I * LANES);
+                jump -= (0.5 * distance[K]) * slope;
+            }
+        }
+        traction += jump * distance[I];
+    }
+    double per_square = face / dot(distance, distance);
+    if (work->frozen) {
+        return dot(along, traction) / dot(along, along) * dot(along, distance) * per_square;
+    }
+    vec area = {0};
+    for (int I = 0; I < DIM; I++) {
+        area += (load(work->cofactor + a * TENSOR + I * LANES) + load(work->cofactor + b * TENSOR + I * LANES)) *
+                (0.5 * distance[I]);
+    }
+    return dot(along, traction) / dot(along, along) * dot(along, area) * per_square;
+}
+
+/* The arguments after `a` are constants where this is called, so that each combination is a loop of its own. */
+static inline struct sums sum_pairs(const struct solver_upwind *work, size_t a, const double *slope, double slope_scale,
+                                    bool reconstruct, bool transposed, bool volume)
+{
+    struct sums sums = {.volume = 0.0};
+    const double *position = work->frozen ? work->X : work->x;
+    vec X_a = load(work->X + a * LANES);
+    vec x_a = load(position + a * LANES);
+    vec p_a = load(work->p + a * LANES);
+    struct tensor slope_a = load_tensor(slope + a * TENSOR);
+    double half_slope = -0.5 * slope_scale;
+    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+        size_t b = work->neighbour[ab];
+        const double *C = work->pair + ab * PAIR;
+        const double *D = transposed ? work->transposed + ab * DIM : C;
+        const double *P_b = work->P + b * TENSOR;
+        vec distance = load(work->X + b * LANES) - X_a;
+        vec along = load(position + b * LANES) - x_a;
+        vec jump = load(work->p + b * LANES) - p_a;
+        for (int I = 0; I < DIM; I++) {
+            sums.force += load(P_b + I * LANES) * D[I];
+            if (reconstruct) {
+                jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * (half_slope * distance[I]);
+            }
+        }
+        sums.dissipation += momentum_flux(work, jump, along, C[DIM]);
+        if (volume) {
+            sums.volume += volume_flux(work, a, b, distance, along, C[DIM], reconstruct);
+        }
+    }
+    return sums;
+}
+
+static inline void finish(const struct solver_upwind *work, size_t a, struct sums sums)
+{
+    double per_V = 1.0 / work->V[a];
+    for (int I = 0; I < DIM; I++) {
+        sums.force += load(work->P + a * TENSOR + I * LANES) * work->row_sum[a * DIM + (size_t)I];
+    }
+    store(work->p_rate + a * LANES, (0.5 * per_V) * (sums.force + sums.dissipation));
+    struct tensor G = load_tensor(work->F_rate + a * TENSOR);
+    if (work->evolves_J) {
+        double compression = work->frozen ? trace(G) : contract(load_tensor(work->cofactor + a * TENSOR), G);
+        work->J_rate[a] = compression + sums.volume * per_V / (2.0 * work->cp * work->rho);
+    }
+    if (work->evolves_H) {
+        struct tensor F = work->frozen ? identity() : load_tensor(work->F + a * TENSOR);
+        store_tensor(work->H_rate + a * TENSOR, tensor_cross(F, G));
+    }
+}
+
+#define EACH(reconstruct, transposed, volume)                                                                          \
+    for (size_t a = begin; a < end; a++) {                                                                             \
+        finish(work, a, sum_pairs(work, a, slope, scale, reconstruct, transposed, volume));                            \
+    }
+
+static void rates(const struct solver_upwind *work, size_t begin, size_t end)
+{
+    const double *slope = work->p_gradient != NULL ? work->p_gradient : work->F_rate;
+    double scale = work->p_gradient != NULL ? 1.0 : work->rho;
+    bool transposed = work->transposed != NULL;
+    if (work->reconstruct && !transposed && !work->evolves_J) {
+        EACH(true, false, false)
+    } else if (work->reconstruct && !transposed) {
+        EACH(true, false, true)
+    } else if (work->reconstruct && !work->evolves_J) {
+        EACH(true, true, false)
+    } else if (work->reconstruct) {
+        EACH(true, true, true)
+    } else {
+        EACH(false, transposed, work->evolves_J)
+    }
+}
+
+static void stresses(const struct solver_upwind *work, size_t begin, size_t end)
+{
+    if (work->cofactor != NULL && !work->evolves_H) {
+        for (size_t a = begin; a < end; a++) {
+            store_tensor(work->cofactor + a * TENSOR, cofactor(load_tensor(work->F + a * TENSOR)));
+        }
+    }
+    work->material->stress_range(&work->constants, begin, end, work->F, work->cofactor, work->J, work->P);
+}
+
+static size_t first_broken(const struct solver_upwind *work, size_t begin, size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        vec p = load(work->p + a * LANES);
+        struct tensor F = load_tensor(work->F + a * TENSOR);
+        double J = work->J != NULL ? work->J[a] : determinant(F);
+        bool inverted = !work->frozen && !(J > 0.0);
+        if (inverted || !isfinite(J) || !isfinite(dot(p, p)) || !isfinite(contract(F, F))) {
+            return a;
+        }
+    }
+    return end;
+}
+
+static void measures(bool linear, size_t begin, size_t end, const double *F, double *H, double *J)
+{
+    for (size_t a = begin; a < end; a++) {
+        struct tensor at = load_tensor(F + a * TENSOR);
+        struct tensor one = identity();
+        struct tensor cof = cofactor(at);
+        double jacobian = determinant(at);
+        if (linear) {
+            for (int I = 0; I < DIM; I++) {
+                at.column[I] -= one.column[I];
+            }
+            struct tensor change = tensor_cross(one, at);
+            /* below 3D tensor_cross is the whole in-plane cofactor of its argument's change as well */
+            for (int I = 0; I < DIM; I++) {
+                cof.column[I] = one.column[I] + change.column[I];
+            }
+            jacobian = 1.0 + trace(at);
+        }
+        if (H != NULL) {
+            store_tensor(H + a * TENSOR, cof);
+        }
+        if (J != NULL) {
+            J[a] = jacobian;
+        }
+    }
+}
+
+const struct solver_upwind_loops DIM_NAME(solver_upwind) = {
+    .lanes = LANES,
+    .gradients = gradients,
+    .rates = rates,
+    .stresses = stresses,
+    .first_broken = first_broken,
+    .measures = measures,
+};
