@@ -32,7 +32,7 @@ static const struct verify_command commands[] = {
              "what was measured, the bound, and whether it holds. Writes report.html, report.json, and the record and\n"
              "pictures of the finest level. n counts spacings along the scene's reference length.\n\n"
              "  assay verify swinging-cube\n"
-             "  assay verify swinging-cube --levels 4,8 --set stencil=closed --json result.json\n"
+             "  assay verify swinging-cube --levels 8,16,24,32 --set cfl=0.4 --json result.json\n"
              "  assay verify swinging-cube --set oracle.U0=5.05e-4   the oracle is told something else: gates fail\n\n"
              "Exit code: 0 all gates pass, or none holds for the configuration, which is then said; 1 a gate or the\n"
              "oracle's self-check fails; 2 the command line, the scene or a file is wrong; 3 the run broke down.",

@@ -9,7 +9,7 @@ static bool find_kind(const struct solver_scene *scene, const struct oracle_kind
 {
     if (scene->oracle[0] == '\0') {
         return solver_fail(error, SOLVER_BAD_INPUT,
-                           "%s: the scene answers to no oracle (key oracle.kind), so there is nothing to verify it "
+                           "%s: the scene answers to no oracle (key oracle.name), so there is nothing to verify it "
                            "against; assay run simulates it",
                            scene->path);
     }

@@ -1,0 +1,156 @@
+/* Gates: what passes, what fails, and which rule holds. */
+#include "tests/unit/unit.h"
+#include "verify/gates.h"
+
+#include <math.h>
+#include <string.h>
+
+static void operators(void)
+{
+    CU_ASSERT_TRUE(verify_gate_judge(0.9, "<=", 1));
+    CU_ASSERT_TRUE(verify_gate_judge(1, "<=", 1));
+    CU_ASSERT_FALSE(verify_gate_judge(nextafter(1, 2), "<=", 1));
+    CU_ASSERT_TRUE(verify_gate_judge(1.1, ">=", 1));
+    CU_ASSERT_TRUE(verify_gate_judge(1, ">=", 1));
+    CU_ASSERT_FALSE(verify_gate_judge(nextafter(1, 0), ">=", 1));
+    CU_ASSERT_FALSE(verify_gate_judge(1, "==", 1)); /* no such operator: nothing passes */
+}
+
+static void never_passes(void)
+{
+    static const double none[] = {NAN, INFINITY, -INFINITY};
+    for (size_t i = 0; i < 3; i++) {
+        CU_ASSERT_FALSE(verify_gate_judge(none[i], "<=", 1));
+        CU_ASSERT_FALSE(verify_gate_judge(none[i], ">=", 1));
+        CU_ASSERT_FALSE(verify_gate_judge(1, "<=", none[i]));
+        CU_ASSERT_FALSE(verify_gate_judge(1, ">=", none[i]));
+    }
+}
+
+static struct solver_scene *scene;
+static struct verify_gates gates;
+static struct solver_error why;
+static double error[VERIFY_ERRORS], rate[VERIFY_ERRORS];
+
+/* A scene of stencil closed and CFL 0.3 with three rules: closed, sbp2, and one without conditions. */
+static void prepare(void)
+{
+    static const char *const override[] = {"stencil=closed", "cfl=0.3"};
+    solver_scene_free(scene);
+    CU_ASSERT_TRUE_FATAL(
+        solver_scene_load(TEST_SOURCE_DIR "/verify/scenes/swinging-cube.lua", override, 2, &scene, &why));
+    scene->gate_count = 3;
+    scene->gate[0] = (struct solver_gate_rule){.conditions = 2,
+                                               .key = {"stencil", "cfl"},
+                                               .text = {"closed", "0.30"},
+                                               .bounds = 2,
+                                               .bound = {{"p", 1e-3}, {"rate p", 1.9}}};
+    scene->gate[1] = (struct solver_gate_rule){
+        .conditions = 1, .key = {"stencil"}, .text = {"sbp2"}, .bounds = 1, .bound = {{"p", 1e-9}}};
+    scene->gate[2] = (struct solver_gate_rule){.bounds = 1, .bound = {{"P_abs", 7}}};
+    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
+        error[i] = 5e-4;
+        rate[i] = 2;
+    }
+}
+
+static bool judge(void)
+{
+    return verify_gates_judge(scene, error, rate, &gates, &why);
+}
+
+static void the_rule_that_holds(void)
+{
+    prepare();
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_EQUAL_FATAL(gates.count, 2);
+    CU_ASSERT_TRUE(gates.pass);
+    CU_ASSERT_STRING_EQUAL(gates.gate[0].name, "p");
+    CU_ASSERT_STRING_EQUAL(gates.gate[0].op, "<=");
+    CU_ASSERT_STRING_EQUAL(gates.gate[1].name, "rate p");
+    CU_ASSERT_STRING_EQUAL(gates.gate[1].op, ">=");
+    CU_ASSERT(gates.gate[0].value == 5e-4 && gates.gate[0].bound == 1e-3 && gates.gate[1].value == 2);
+}
+
+static void one_bound_decides(void)
+{
+    prepare();
+    error[verify_error_find("p")] = 2e-3;
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_FALSE(gates.pass);
+    CU_ASSERT_FALSE(gates.gate[0].pass);
+    CU_ASSERT_TRUE(gates.gate[1].pass);
+    prepare();
+    rate[verify_error_find("p")] = 1.8;
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_FALSE(gates.pass);
+    CU_ASSERT_FALSE(gates.gate[1].pass);
+    prepare();
+    rate[verify_error_find("p")] = NAN; /* one level only */
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_FALSE(gates.pass);
+    prepare();
+    error[verify_error_find("P")] = 1; /* nobody asked for this one */
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_TRUE(gates.pass);
+}
+
+static void without_conditions(void)
+{
+    prepare();
+    strcpy(scene->stencil, "sph");
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_EQUAL_FATAL(gates.count, 1);
+    CU_ASSERT_STRING_EQUAL(gates.gate[0].name, "P_abs");
+    CU_ASSERT_STRING_EQUAL(gates.gate[0].unit, "Pa");
+    CU_ASSERT_TRUE(gates.pass);
+}
+
+static void all_conditions_count(void)
+{
+    prepare();
+    scene->cfl = 0.4; /* the stencil is right, the CFL number is not */
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_EQUAL_FATAL(gates.count, 1);
+    CU_ASSERT_STRING_EQUAL(gates.gate[0].name, "P_abs");
+}
+
+static void no_rule(void)
+{
+    prepare();
+    scene->gate_count = 2;
+    strcpy(scene->stencil, "sph");
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_EQUAL(gates.count, 0);
+    CU_ASSERT_FALSE(gates.pass); /* nothing was judged, so nothing passed */
+}
+
+static void wrong_rules(void)
+{
+    prepare();
+    strcpy(scene->gate[1].key[0], "stencl");
+    CU_ASSERT_FALSE(judge());
+    CU_ASSERT_EQUAL(why.code, SOLVER_BAD_INPUT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "gates[2].when.stencl"));
+    prepare();
+    strcpy(scene->gate[1].bound[0].name, "rate q"); /* also where the rule does not hold */
+    CU_ASSERT_FALSE(judge());
+    CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "\"rate q\""));
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"both operators, both directions", operators},
+        {"what is no number never passes", never_passes},
+        {"the rule that holds", the_rule_that_holds},
+        {"one bound decides", one_bound_decides},
+        {"a rule without conditions", without_conditions},
+        {"all conditions count", all_conditions_count},
+        {"no rule", no_rule},
+        {"wrong rules", wrong_rules},
+    };
+    int code = unit_main("gates", tests, sizeof tests / sizeof *tests);
+    solver_scene_free(scene);
+    return code;
+}

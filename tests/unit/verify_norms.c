@@ -1,0 +1,131 @@
+/* Error norms against values worked out by hand. */
+#include "tests/unit/unit.h"
+#include "verify/norms.h"
+
+#include <math.h>
+#include <string.h>
+
+static void check(double value, double expected)
+{
+    CU_ASSERT_DOUBLE_EQUAL(value, expected, 1e-15 * fabs(expected));
+}
+
+static void by_hand(void)
+{
+    /* Two particles of volume 1 and 3; errors (3, 4) and (0, 1); exact (6, 8) and (0, 2). */
+    const double V[] = {1, 3}, exact[] = {6, 8, 0, 2}, computed[] = {9, 12, 0, 3};
+    struct verify_norms norms = verify_norms_field(2, 2, V, computed, exact);
+    check(norms.relative_l2, sqrt((25.0 + 3) / (100.0 + 12)));
+    check(norms.absolute_l2, sqrt(28.0 / 4));
+    check(norms.relative_max, 0.5);
+    check(norms.absolute_max, 5);
+}
+
+static void weights_matter(void)
+{
+    const double even[] = {1, 1}, uneven[] = {1, 9}, exact[] = {1, 1}, computed[] = {1, 2};
+    check(verify_norms_field(2, 1, even, computed, exact).relative_l2, sqrt(0.5));
+    check(verify_norms_field(2, 1, uneven, computed, exact).relative_l2, sqrt(0.9));
+    check(verify_norms_field(2, 1, uneven, computed, exact).relative_max, 1);
+}
+
+static void no_error(void)
+{
+    const double V[] = {1, 2}, exact[] = {5, -7};
+    struct verify_norms norms = verify_norms_field(2, 1, V, exact, exact);
+    CU_ASSERT(norms.relative_l2 == 0 && norms.absolute_l2 == 0 && norms.relative_max == 0 && norms.absolute_max == 0);
+}
+
+static void exact_field_is_zero(void)
+{
+    const double V[] = {1, 1}, zero[] = {0, 0}, computed[] = {3, 4};
+    struct verify_norms norms = verify_norms_field(2, 1, V, computed, zero);
+    CU_ASSERT(isnan(norms.relative_l2));
+    CU_ASSERT(isnan(norms.relative_max));
+    check(norms.absolute_l2, sqrt(12.5));
+    check(norms.absolute_max, 4);
+    CU_ASSERT(isnan(verify_norms_field(2, 1, V, zero, zero).relative_l2));
+}
+
+/* A NaN must show wherever it stands: a maximum is where it is lost most easily. */
+static void nan_shows(void)
+{
+    const double V[] = {1, 1, 1}, exact[] = {1, 2, 3};
+    for (size_t at = 0; at < 3; at++) {
+        double spoiled[] = {1, 2, 3};
+        spoiled[at] = NAN;
+        struct verify_norms norms = verify_norms_field(3, 1, V, spoiled, exact);
+        CU_ASSERT(isnan(norms.relative_l2) && isnan(norms.absolute_l2));
+        CU_ASSERT(isnan(norms.relative_max) && isnan(norms.absolute_max));
+        norms = verify_norms_field(3, 1, V, exact, spoiled);
+        CU_ASSERT(isnan(norms.relative_l2) && isnan(norms.relative_max));
+    }
+    const double bad_V[] = {1, NAN, 1}, computed[] = {1, 2, 4};
+    CU_ASSERT(isnan(verify_norms_field(3, 1, bad_V, computed, exact).relative_l2));
+}
+
+static void infinity_is_no_small_error(void)
+{
+    const double V[] = {1}, exact[] = {1}, computed[] = {INFINITY};
+    CU_ASSERT(!isfinite(verify_norms_field(1, 1, V, computed, exact).relative_l2));
+    CU_ASSERT(!isfinite(verify_norms_field(1, 1, V, computed, exact).absolute_max));
+}
+
+/* An oracle of constants, to see which components each error counts. */
+static void constant_state(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state)
+{
+    (void)oracle;
+    *state = (struct oracle_state){.u = {X[0], t, 0}, .p = {3, 4, 0}, .F = {2, 0, 0, 0, 1, 0, 0, 0, 1}};
+    for (int i = 0; i < 9; i++) {
+        state->P[i] = i + 1; /* in the plane: 1 2 / 4 5 */
+    }
+}
+
+static void components_counted(void)
+{
+    const struct oracle_kind kind = {.state = constant_state};
+    double X[] = {1, 0}, V[] = {2};
+    struct solver_cloud cloud = {.dim = 2, .count = 1, .X = X};
+    /* p off by 1 in y; a shear stress off by 2, a normal stress by 3; F off by 0.5; u exact at t = 1. */
+    const double u[] = {1, 1}, p[] = {3, 5}, F[] = {2, 0.5, 0, 1}, P[] = {4, 2, 6, 5};
+    const struct solver_output output = {.cloud = &cloud, .time = 1, .V = V, .u = u, .p = p, .F = F, .P = P};
+    double error[VERIFY_ERRORS];
+    struct solver_error why;
+    CU_ASSERT_TRUE_FATAL(verify_norms_measure(&output, &kind, NULL, error, &why));
+    check(error[verify_error_find("p")], 1.0 / 5);
+    check(error[verify_error_find("P")], 3 / sqrt(26));
+    check(error[verify_error_find("P_all")], sqrt(13.0 / 46));
+    check(error[verify_error_find("P_all_abs")], sqrt(13));
+    check(error[verify_error_find("F")], 0.5); /* against F - I, whose size is 1 */
+    check(error[verify_error_find("F_abs_max")], 0.5);
+    CU_ASSERT(error[verify_error_find("u")] == 0);
+}
+
+static void names(void)
+{
+    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
+        CU_ASSERT_EQUAL(verify_error_find(verify_error_name(i)), i);
+        CU_ASSERT_EQUAL(strstr(verify_error_name(i), "_abs") == NULL,
+                        strstr(verify_error_meaning(i), "absolute") == NULL);
+        CU_ASSERT_EQUAL(strstr(verify_error_name(i), "_max") == NULL, strstr(verify_error_meaning(i), " max ") == NULL);
+    }
+    CU_ASSERT_STRING_EQUAL(verify_error_unit(verify_error_find("P_abs")), "Pa");
+    CU_ASSERT_STRING_EQUAL(verify_error_unit(verify_error_find("P_max")), "-");
+    CU_ASSERT_EQUAL(verify_error_find("q"), VERIFY_ERRORS);
+    CU_ASSERT_EQUAL(verify_error_find(""), VERIFY_ERRORS);
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"values by hand", by_hand},
+        {"volumes are the weights", weights_matter},
+        {"no error is zero", no_error},
+        {"an exact field of zero has no relative error", exact_field_is_zero},
+        {"NaN shows", nan_shows},
+        {"infinity shows", infinity_is_no_small_error},
+        {"components counted", components_counted},
+        {"names and units", names},
+    };
+    return unit_main("norms", tests, sizeof tests / sizeof *tests);
+}

@@ -1,0 +1,147 @@
+/* The command line. */
+#include "tests/unit/unit.h"
+#include "verify/options.h"
+#include "verify/suggest.h"
+
+#include <string.h>
+
+static const struct verify_command all = {
+    .name = "verify",
+    .operands = "SCENE",
+    .summary = "",
+    .help = "",
+    .takes = VERIFY_TAKES_SET | VERIFY_TAKES_LEVELS | VERIFY_TAKES_JSON | VERIFY_TAKES_OUT,
+    .least = 1,
+    .most = 1,
+};
+
+static struct verify_options options;
+static struct solver_error error;
+
+enum { WORDS = 80 };
+
+static bool parse(const char *const *words)
+{
+    char *list[WORDS];
+    int count = 0;
+    for (; words[count] != NULL; count++) {
+        list[count] = (char *)(size_t)words[count];
+    }
+    error = (struct solver_error){.code = SOLVER_OK};
+    return verify_options_parse(&all, count, list, &options, &error);
+}
+
+#define PARSE(...) parse((const char *const[]){__VA_ARGS__, NULL})
+
+/* Refused as bad input, and the text says what. */
+static void refused(bool parsed, const char *text)
+{
+    CU_ASSERT_FALSE(parsed);
+    CU_ASSERT_EQUAL(error.code, SOLVER_BAD_INPUT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, text));
+}
+
+static void accepted(void)
+{
+    CU_ASSERT_TRUE_FATAL(PARSE("--levels", "4,8,16,24", "cube", "--set", "n=3", "-s", "a=b=c", "--json=x.json"));
+    CU_ASSERT_EQUAL(options.level_count, 4);
+    CU_ASSERT_EQUAL(options.level[3], 24);
+    CU_ASSERT_STRING_EQUAL(options.operand[0], "cube");
+    CU_ASSERT_EQUAL(options.override_count, 2);
+    CU_ASSERT_STRING_EQUAL(options.override[1], "a=b=c");
+    CU_ASSERT_STRING_EQUAL(options.json, "x.json");
+    CU_ASSERT_PTR_NULL(options.out);
+    CU_ASSERT_STRING_EQUAL(options.line, "assay verify --levels 4,8,16,24 cube --set n=3 -s a=b=c --json=x.json");
+    CU_ASSERT_TRUE(PARSE("--help"));
+    CU_ASSERT_TRUE(options.help);
+    CU_ASSERT_TRUE(PARSE("--", "--levels"));
+    CU_ASSERT_STRING_EQUAL(options.operand[0], "--levels");
+}
+
+static void unknown_options(void)
+{
+    refused(PARSE("cube", "--level", "4"), "did you mean --levels?");
+    refused(PARSE("cube", "--jsno", "4"), "did you mean --json?");
+    refused(PARSE("cube", "--zzzzzzzz"), "unknown option --zzzzzzzz");
+    refused(PARSE("cube", "--dir", "x"), "unknown option --dir"); /* there is one, but not for this command */
+    refused(PARSE("cube", "-x"), "unknown option -x");
+}
+
+static void wrong_levels(void)
+{
+    static const char *const wrong[] = {"",    ",",   "4,",   ",4", "0",   "-4",          "4,4", "8,4",
+                                        "4.5", "4;8", "4, 8", "x",  "1e9", "99999999999", "+4",  "4,8,nan"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        refused(PARSE("cube", "--levels", wrong[i]), "--levels");
+    }
+    refused(PARSE("cube", "--levels", "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17"), "at most 16");
+    CU_ASSERT_TRUE(PARSE("cube", "--levels", "1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16"));
+}
+
+static void wrong_words(void)
+{
+    refused(PARSE("cube", "--levels"), "wants N,N,...");
+    refused(PARSE("cube", "--set"), "wants KEY=VALUE");
+    refused(PARSE("cube", "--set", "n"), "KEY=VALUE");
+    refused(PARSE("cube", "--set", "=4"), "KEY=VALUE");
+    refused(PARSE("cube", "--set", "n=4\nm=5"), "control character");
+    refused(PARSE("cube", "--json", "a", "--json", "b"), "given twice");
+    refused(PARSE("cube", "--out", ""), "empty");
+    refused(PARSE("cube", "--help=yes"), "takes no value");
+    refused(PARSE("cube", "sphere"), "sphere");
+    refused(PARSE("--levels", "4"), "wants SCENE");
+}
+
+static void too_many(void)
+{
+    const char *words[2 * VERIFY_OVERRIDES + 2] = {"cube"};
+    size_t count = 1;
+    for (size_t i = 0; i < WORDS - 2; i++) {
+        words[count++] = "--set=n=1";
+    }
+    words[count] = NULL;
+    refused(parse(words), "too many --set");
+}
+
+static void long_line(void)
+{
+    static char word[3 * VERIFY_COMMAND_LINE];
+    memset(word, 'x', sizeof word - 1);
+    CU_ASSERT_TRUE(PARSE(word));
+    CU_ASSERT_EQUAL(strlen(options.line), VERIFY_COMMAND_LINE - 1);
+}
+
+static void suggestions(void)
+{
+    static const char *const names[] = {"run", "verify", "render", "golden"};
+    CU_ASSERT_STRING_EQUAL(verify_suggest("verfiy", names, 4), "verify");
+    CU_ASSERT_STRING_EQUAL(verify_suggest("rnu", names, 4), "run");
+    CU_ASSERT_STRING_EQUAL(verify_suggest("gold", names, 4), "golden");
+    CU_ASSERT_PTR_NULL(verify_suggest("swinging-cube", names, 4));
+    CU_ASSERT_PTR_NULL(verify_suggest("", names, 4));
+    static char word[500];
+    memset(word, 'r', sizeof word - 1);
+    CU_ASSERT_PTR_NULL(verify_suggest(word, names, 4));
+}
+
+static void exit_codes(void)
+{
+    static const struct {
+        enum solver_code code;
+        int exit;
+    } table[] = {{SOLVER_OK, 0}, {SOLVER_BAD_INPUT, 2}, {SOLVER_IO, 2}, {SOLVER_NO_MEMORY, 3}, {SOLVER_BROKE_DOWN, 3}};
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        const struct solver_error given = {.code = table[i].code};
+        CU_ASSERT_EQUAL((int)verify_exit_code(&given), table[i].exit);
+    }
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"accepted", accepted},       {"unknown options", unknown_options}, {"wrong levels", wrong_levels},
+        {"wrong words", wrong_words}, {"too many overrides", too_many},     {"a very long line", long_line},
+        {"suggestions", suggestions}, {"exit codes", exit_codes},
+    };
+    return unit_main("options", tests, sizeof tests / sizeof *tests);
+}
