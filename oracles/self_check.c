@@ -4,7 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLES = 64, FACE_SAMPLES = 32, ENERGY_SAMPLES = 8, NUMBERS = sizeof(struct oracle_state) / sizeof(double) };
+enum { SAMPLES = 64, FACE_SAMPLES = 32, ENERGY_SAMPLES = 8 };
+enum { NUMBERS = sizeof(struct oracle_state) / sizeof(double) };
+enum { REACH = 4 }; /* of the eighth-order differences, in steps */
 
 /* How far two evaluations are apart, and how large they are. */
 struct distance {
@@ -38,7 +40,7 @@ static double relative(double error, double scale)
     return error == 0 && scale == 0 ? 0 : error / scale;
 }
 
-void self_check_add(struct self_check *check, const char *law, double residual, double bound)
+static void add(struct self_check *check, const char *law, double residual, double bound)
 {
     if (check->count < check->size) {
         check->line[check->count] = (struct oracle_check){.law = law, .residual = residual, .bound = bound};
@@ -46,7 +48,9 @@ void self_check_add(struct self_check *check, const char *law, double residual, 
     check->count++;
 }
 
-double self_check_round_off(const struct self_check *check)
+/* Relative error of two evaluations of the same field at the same point: round-off times the phase, in radians, that
+ * the fastest wave has run through. */
+static double round_off(const struct self_check *check)
 {
     return DBL_EPSILON * (1 + check->frequency * check->t_end);
 }
@@ -54,7 +58,7 @@ double self_check_round_off(const struct self_check *check)
 /* The differences divide the round-off by the step; the factor leaves room for the sum of eight terms. */
 static double derivative_bound(const struct self_check *check)
 {
-    return 16 * self_check_round_off(check) / SELF_CHECK_STEP;
+    return 16 * round_off(check) / SELF_CHECK_STEP;
 }
 
 static double step_along(const struct self_check *check, int axis)
@@ -74,16 +78,15 @@ static double sequence(size_t i, int axis)
     return x;
 }
 
-void self_check_sample(const struct self_check *check, size_t i, double X[3], double *t)
+/* Point i of the sequence, at least `steps` steps of the differences from the ends of body and time. */
+static void sample(const struct self_check *check, size_t i, int steps, double X[3], double *t)
 {
     for (int axis = 0; axis < 3; axis++) {
-        double margin = 4 * step_along(check, axis);
-        X[axis] = axis < check->kind->dim
-                      ? check->lower[axis] + margin +
-                            sequence(i, axis) * (check->upper[axis] - check->lower[axis] - 2 * margin)
-                      : 0;
+        double margin = steps * step_along(check, axis);
+        double room = check->upper[axis] - check->lower[axis] - 2 * margin;
+        X[axis] = axis < check->kind->dim ? check->lower[axis] + margin + sequence(i, axis) * room : 0;
     }
-    double margin = 4 * step_along(check, 3);
+    double margin = steps * step_along(check, 3);
     *t = margin + sequence(i, 3) * (check->t_end - 2 * margin);
 }
 
@@ -92,12 +95,13 @@ static void evaluate(const struct self_check *check, const double X[3], double t
     check->kind->state(check->oracle, X, t, state);
 }
 
-void self_check_derivative(const struct self_check *check, const double X[3], double t, int axis,
-                           struct oracle_state *derivative)
+/* Of every field, along axis 0, 1, 2 (X, Y, Z) or 3 (t); reaches REACH steps to either side. */
+static void derivative(const struct self_check *check, const double X[3], double t, int axis,
+                       struct oracle_state *along)
 {
-    static const double weight[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
+    static const double weight[REACH] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
     double step = step_along(check, axis), sum[NUMBERS] = {0};
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < REACH; k++) {
         double value[2][NUMBERS];
         for (int side = 0; side < 2; side++) {
             struct oracle_state state;
@@ -113,7 +117,7 @@ void self_check_derivative(const struct self_check *check, const double X[3], do
             sum[n] += weight[k] * (value[1][n] - value[0][n]) / step;
         }
     }
-    memcpy(derivative, sum, sizeof *derivative);
+    memcpy(along, sum, sizeof *along);
 }
 
 /* P = K tr(e) I + 2 mu dev(e), e = (G + G^T)/2. */
@@ -146,11 +150,11 @@ static void differentiate(struct self_check *check, size_t i, struct distance la
 {
     struct oracle_state state, along[4];
     double X[3], t, momentum[3], divergence[3] = {0}, G[9] = {0}, own[9], P[9];
-    self_check_sample(check, i, X, &t);
+    sample(check, i, REACH, X, &t);
     evaluate(check, X, t, &state);
-    self_check_derivative(check, X, t, 3, &along[3]);
+    derivative(check, X, t, 3, &along[3]);
     for (int j = 0; j < check->kind->dim; j++) {
-        self_check_derivative(check, X, t, j, &along[j]);
+        derivative(check, X, t, j, &along[j]);
         for (int k = 0; k < 3; k++) {
             G[3 * k + j] = along[j].u[k];
             divergence[k] += along[j].P[3 * k + j];
@@ -180,11 +184,11 @@ void self_check_differentials(struct self_check *check)
     }
     check->of.stress = (check->bulk + 4 * check->mu / 3) * check->of.gradient;
     double bound = derivative_bound(check);
-    self_check_add(check, "v = du/dt", relative(law[0].error, law[0].size), bound);
-    self_check_add(check, "p = rho v", relative(law[1].error, law[1].size), 4 * DBL_EPSILON);
-    self_check_add(check, "F = I + du/dX", law[2].error / gradient_scale(check, bound), bound);
-    self_check_add(check, "P = Hooke(du/dX)", relative(law[3].error, check->of.stress), bound);
-    self_check_add(check, "dp/dt = Div P", relative(law[4].error, law[4].size), bound);
+    add(check, "v = du/dt", relative(law[0].error, law[0].size), bound);
+    add(check, "p = rho v", relative(law[1].error, law[1].size), 4 * DBL_EPSILON);
+    add(check, "F = I + du/dX", law[2].error / gradient_scale(check, bound), bound);
+    add(check, "P = Hooke(du/dX)", relative(law[3].error, check->of.stress), bound);
+    add(check, "dp/dt = Div P", relative(law[4].error, law[4].size), bound);
 }
 
 void self_check_starts(struct self_check *check, self_check_initial *initial)
@@ -193,14 +197,14 @@ void self_check_starts(struct self_check *check, self_check_initial *initial)
     for (size_t i = 0; i < SAMPLES; i++) {
         struct oracle_state state;
         double X[3], t, u[3], v[3];
-        self_check_sample(check, i, X, &t);
+        sample(check, i, 0, X, &t);
         evaluate(check, X, 0, &state);
         initial(check->oracle, X, u, v);
         compare(&displacement, state.u, u, 3);
         compare(&velocity, state.v, v, 3);
     }
-    self_check_add(check, "initial displacement", relative(displacement.error, check->of.u), 16 * DBL_EPSILON);
-    self_check_add(check, "initial velocity", relative(velocity.error, check->of.v), 16 * DBL_EPSILON);
+    add(check, "initial displacement", relative(displacement.error, check->of.u), 16 * DBL_EPSILON);
+    add(check, "initial velocity", relative(velocity.error, check->of.v), 16 * DBL_EPSILON);
 }
 
 void self_check_face(struct self_check *check, int axis, bool upper, const bool held[3])
@@ -215,7 +219,7 @@ void self_check_face(struct self_check *check, int axis, bool upper, const bool 
     for (size_t i = 0; i < FACE_SAMPLES; i++) {
         struct oracle_state state;
         double X[3], t;
-        self_check_sample(check, i, X, &t);
+        sample(check, i, 0, X, &t);
         X[axis] = upper ? check->upper[axis] : check->lower[axis];
         evaluate(check, X, t, &state);
         for (int k = 0; k < 3; k++) {
@@ -223,10 +227,10 @@ void self_check_face(struct self_check *check, int axis, bool upper, const bool 
         }
     }
     if (held[0] || held[1] || held[2]) {
-        self_check_add(check, displacement[axis][upper], relative(moved, check->of.u), 16 * DBL_EPSILON);
+        add(check, displacement[axis][upper], relative(moved, check->of.u), 16 * DBL_EPSILON);
     }
     if (!held[0] || !held[1] || !held[2]) {
-        self_check_add(check, traction[axis][upper], relative(loaded, check->of.stress), 16 * DBL_EPSILON);
+        add(check, traction[axis][upper], relative(loaded, check->of.stress), 16 * DBL_EPSILON);
     }
 }
 
@@ -236,7 +240,7 @@ void self_check_compare(struct self_check *check, self_check_second *second)
     for (size_t i = 0; i < SAMPLES; i++) {
         struct oracle_state state, other;
         double X[3], t;
-        self_check_sample(check, i, X, &t);
+        sample(check, i, 0, X, &t);
         evaluate(check, X, t, &state);
         second(check->oracle, X, t, &other);
         compare(&u, state.u, other.u, 3);
@@ -245,12 +249,12 @@ void self_check_compare(struct self_check *check, self_check_second *second)
         compare(&F, state.F, other.F, 9);
         compare(&P, state.P, other.P, 9);
     }
-    double bound = 16 * self_check_round_off(check);
-    self_check_add(check, "second evaluation: u", relative(u.error, check->of.u), bound);
-    self_check_add(check, "second evaluation: v", relative(v.error, check->of.v), bound);
-    self_check_add(check, "second evaluation: p", relative(p.error, check->rho * check->of.v), bound);
-    self_check_add(check, "second evaluation: F", F.error / gradient_scale(check, bound), bound);
-    self_check_add(check, "second evaluation: P", relative(P.error, check->of.stress), bound);
+    double bound = 16 * round_off(check);
+    add(check, "second evaluation: u", relative(u.error, check->of.u), bound);
+    add(check, "second evaluation: v", relative(v.error, check->of.v), bound);
+    add(check, "second evaluation: p", relative(p.error, check->rho * check->of.v), bound);
+    add(check, "second evaluation: F", F.error / gradient_scale(check, bound), bound);
+    add(check, "second evaluation: P", relative(P.error, check->of.stress), bound);
 }
 
 struct energies {
@@ -303,7 +307,7 @@ void self_check_energies(struct self_check *check)
     for (size_t i = 0; i < ENERGY_SAMPLES; i++) {
         struct energies given;
         double X[3], t;
-        self_check_sample(check, i, X, &t);
+        sample(check, i, 0, X, &t);
         t = i == 0 ? 0 : t;
         check->kind->energy(check->oracle, t, &given.kinetic, &given.strain);
         memset(X, 0, sizeof X);
@@ -315,7 +319,7 @@ void self_check_energies(struct self_check *check)
         compare(&total, &sum, &first, 1);
     }
     double bound = 64 * DBL_EPSILON;
-    self_check_add(check, "total energy constant", relative(total.error, total.size), bound);
-    self_check_add(check, "kinetic energy = quadrature", relative(kinetic.error, total.size), bound);
-    self_check_add(check, "strain energy = quadrature", relative(strain.error, total.size), bound);
+    add(check, "total energy constant", relative(total.error, total.size), bound);
+    add(check, "kinetic energy = quadrature", relative(kinetic.error, total.size), bound);
+    add(check, "strain energy = quadrature", relative(strain.error, total.size), bound);
 }

@@ -1,8 +1,13 @@
 /* What every oracle can be asked without knowing its formulas: do its fields satisfy the laws they stand for?
+ *
  * Derivatives are taken of the fields as they are given, by central differences of eighth order with a step of
- * SELF_CHECK_STEP radians of the shortest wave: their truncation error is SELF_CHECK_STEP^8 / 630 = 6e-14 and stays
- * below the round-off, from which the bounds are made. An oracle's `check` fills a struct self_check, calls
- * self_check_differentials first, and then those of the others that apply to it. */
+ * SELF_CHECK_STEP radians of the shortest wave: their truncation error, SELF_CHECK_STEP^8 / 630 = 6e-14, stays below
+ * the round-off. From that the bounds are made: two evaluations of a field differ by epsilon times the phase that the
+ * fastest wave has run through, and a difference divides this by the step. Samples are a fixed low-discrepancy sequence
+ * in body and time.
+ *
+ * An oracle's `check` fills a struct self_check, calls self_check_differentials first, which sets the scales, and then
+ * those of the others that apply to it. */
 #ifndef ORACLES_SELF_CHECK_H
 #define ORACLES_SELF_CHECK_H
 
@@ -29,18 +34,6 @@ struct self_check {
     size_t size, count;         /* room for lines, and lines there are */
     struct self_check_scale of; /* set by self_check_differentials */
 };
-
-/* Appends a line. */
-void self_check_add(struct self_check *check, const char *law, double residual, double bound);
-/* Point i of a fixed low-discrepancy sequence inside the body and its time, far enough from their ends for
- * the derivatives to stay within. */
-void self_check_sample(const struct self_check *check, size_t i, double X[3], double *t);
-/* Derivative of every field along axis 0, 1, 2 (X, Y, Z) or 3 (t). */
-void self_check_derivative(const struct self_check *check, const double X[3], double t, int axis,
-                           struct oracle_state *derivative);
-/* Relative error of two evaluations of the same field at the same point: round-off times the phase, in radians, that
- * the fastest wave has run through. */
-double self_check_round_off(const struct self_check *check);
 
 /* v = du/dt, p = rho v, F = I + du/dX, P = K tr(e) I + 2 mu dev(e) with e the symmetric du/dX, dp/dt = Div P. Together
  * they are rho u_tt = Div P(u); first derivatives alone keep the bound 1/SELF_CHECK_STEP lower than u_tt would. */

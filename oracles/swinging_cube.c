@@ -190,6 +190,11 @@ static double p_modulus(const struct moduli *of)
     return of->bulk + 4 * of->mu / 3;
 }
 
+static double plane_wave_number(void)
+{
+    return sqrt(3.0) * PI / (2 * SIDE);
+}
+
 /* The second evaluation, d'Alembert's: s1 c2 c3 is the mean of d1 sin(k d.X) over the eight d = (+-1, +-1, +-1), so the
  * initial shape is a sum of plane waves along n = d / sqrt(3) with polarisation (d1 A, d2 B, d3 C) U0. What of it lies
  * along n runs with cp, what lies across with cs, one half forwards and one half backwards. */
@@ -201,7 +206,7 @@ struct plane_wave {
 static void add_plane_wave(const struct plane_wave *w, const struct moduli *of, double rho, const double X[3], double t,
                            struct oracle_state *sum)
 {
-    double kappa = sqrt(3.0) * PI / (2 * SIDE);
+    double kappa = plane_wave_number();
     double phase = kappa * (w->n[0] * X[0] + w->n[1] * X[1] + w->n[2] * X[2] - w->speed * t);
     double slope = kappa * cos(phase);
     for (int i = 0; i < 3; i++) {
@@ -257,7 +262,7 @@ static size_t check(const struct oracle_kind *kind, const struct oracle *oracle,
 {
     const struct given *g = &oracle->given;
     struct moduli of = moduli(g);
-    double kappa = sqrt(3.0) * PI / (2 * SIDE);
+    double kappa = plane_wave_number();
     struct self_check laws = {.kind = kind,
                               .oracle = oracle,
                               .upper = {SIDE, SIDE, SIDE},

@@ -134,14 +134,17 @@ static void answers_repeatably_with_finite_numbers(void)
         struct oracle *oracle = create_typical(*k), *again = create_typical(*k);
         for (size_t i = 0; i < sizeof place / sizeof *place; i++) {
             struct oracle_state a, b;
-            double n[NUMBERS], energy[4];
+            double n[2][NUMBERS], energy[4];
             memset(&a, 0x55, sizeof a);
             memset(&b, 0xaa, sizeof b); /* what a kind leaves unset differs */
             (*k)->state(oracle, place[i], 1e-3, &a);
             (*k)->state(again, place[i], 1e-3, &b);
-            memcpy(n, &a, sizeof n);
-            CU_ASSERT_TRUE(all_finite(n, NUMBERS));
-            CU_ASSERT_EQUAL(memcmp(&a, &b, sizeof a), 0);
+            memcpy(n[0], &a, sizeof a);
+            memcpy(n[1], &b, sizeof b);
+            CU_ASSERT_TRUE(all_finite(n[0], NUMBERS));
+            for (int j = 0; j < NUMBERS; j++) {
+                CU_ASSERT_TRUE(n[0][j] == n[1][j]);
+            }
             (*k)->energy(oracle, 1e-3, &energy[0], &energy[1]);
             (*k)->energy(again, 1e-3, &energy[2], &energy[3]);
             CU_ASSERT_TRUE(all_finite(energy, 4) && energy[0] >= 0 && energy[1] >= 0);

@@ -10,7 +10,10 @@
 enum { A, B, C, U0, YOUNG, POISSON, DENSITY, PARAMETERS };
 
 typedef void spoil_state(const double X[3], double t, double d, struct oracle_state *s);
-typedef void spoil_energy(double t, double d, double *kinetic, double *strain);
+struct energies {
+    double kinetic, strain;
+};
+typedef void spoil_energy(double d, struct energies *e);
 
 /* The true kind, the oracle checked, one of each wave alone, and what is spoiled by how much. */
 static struct {
@@ -35,10 +38,13 @@ static void spoiled_state(const struct oracle *oracle, const double X[3], double
 
 static void spoiled_energy(const struct oracle *oracle, double t, double *kinetic, double *strain)
 {
-    now.kind->energy(oracle, t, kinetic, strain);
+    struct energies e;
+    now.kind->energy(oracle, t, &e.kinetic, &e.strain);
     if (now.energy != NULL) {
-        now.energy(t, now.d, kinetic, strain);
+        now.energy(now.d, &e);
     }
+    *kinetic = e.kinetic;
+    *strain = e.strain;
 }
 
 static struct oracle *create(const double value[PARAMETERS])
@@ -200,31 +206,27 @@ static void lame_mu(const double X[3], double t, double d, struct oracle_state *
     }
 }
 
-static void kinetic_energy(double t, double d, double *kinetic, double *strain)
+static void kinetic_energy(double d, struct energies *e)
 {
-    (void)t, (void)strain;
-    *kinetic *= 1 + d;
+    e->kinetic *= 1 + d;
 }
 
-static void strain_energy(double t, double d, double *kinetic, double *strain)
+static void strain_energy(double d, struct energies *e)
 {
-    (void)t, (void)kinetic;
-    *strain *= 1 + d;
+    e->strain *= 1 + d;
 }
 
-static void both_energies(double t, double d, double *kinetic, double *strain)
+static void both_energies(double d, struct energies *e)
 {
-    (void)t;
-    *kinetic *= 1 + d;
-    *strain *= 1 + d;
+    e->kinetic *= 1 + d;
+    e->strain *= 1 + d;
 }
 
-static void exchanged_energy(double t, double d, double *kinetic, double *strain)
+static void exchanged_energy(double d, struct energies *e)
 {
-    (void)t;
-    double shift = d * *kinetic; /* the total stays right */
-    *kinetic -= shift;
-    *strain += shift;
+    double shift = d * e->kinetic; /* the total stays right */
+    e->kinetic -= shift;
+    e->strain += shift;
 }
 
 static const struct {
@@ -375,18 +377,18 @@ static void nan_now_and_then(const double X[3], double t, double d, struct oracl
     }
 }
 
-static void swapped_energies(double t, double d, double *kinetic, double *strain)
+static void swapped_energies(double d, struct energies *e)
 {
-    (void)t, (void)d;
-    double k = *kinetic;
-    *kinetic = *strain;
-    *strain = k;
+    (void)d;
+    double k = e->kinetic;
+    e->kinetic = e->strain;
+    e->strain = k;
 }
 
-static void infinite_energy(double t, double d, double *kinetic, double *strain)
+static void infinite_energy(double d, struct energies *e)
 {
-    (void)t, (void)d, (void)strain;
-    *kinetic = INFINITY;
+    (void)d;
+    e->kinetic = INFINITY;
 }
 
 static void wrong_formulas_are_caught(void)

@@ -5,6 +5,13 @@
 #include <math.h>
 #include <string.h>
 
+static const struct oracle_kind *the_kind(void)
+{
+    const struct oracle_kind *kind = oracle_find("swinging-cube");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(kind);
+    return kind;
+}
+
 static void typical(const struct oracle_kind *kind, double value[ORACLE_PARAMETERS])
 {
     for (size_t i = 0; kind->parameter[i].name != NULL; i++) {
@@ -24,8 +31,7 @@ static size_t index_of(const struct oracle_kind *kind, const char *name)
 
 static void refused(const char *name, double value, const char *says)
 {
-    const struct oracle_kind *kind = oracle_find("swinging-cube");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(kind);
+    const struct oracle_kind *kind = the_kind();
     double values[ORACLE_PARAMETERS];
     char why[ORACLE_WHY] = "";
     struct oracle *oracle = (struct oracle *)1;
@@ -39,9 +45,7 @@ static void refused(const char *name, double value, const char *says)
 
 static void finds_by_name(void)
 {
-    const struct oracle_kind *kind = oracle_find("swinging-cube");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(kind);
-    CU_ASSERT_STRING_EQUAL(kind->name, "swinging-cube");
+    CU_ASSERT_STRING_EQUAL(the_kind()->name, "swinging-cube");
     CU_ASSERT_PTR_NULL(oracle_find("swinging"));
     CU_ASSERT_PTR_NULL(oracle_find(""));
     CU_ASSERT_PTR_NULL(oracle_find(NULL));
@@ -80,8 +84,7 @@ static void refuses_what_overflows(void)
 /* The fields of infinite amplitudes at rest are not a number, although nothing moves. */
 static void refuses_infinity_times_zero(void)
 {
-    const struct oracle_kind *kind = oracle_find("swinging-cube");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(kind);
+    const struct oracle_kind *kind = the_kind();
     double values[ORACLE_PARAMETERS];
     char why[ORACLE_WHY] = "";
     struct oracle *oracle = NULL;
