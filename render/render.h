@@ -10,9 +10,9 @@ enum { RENDER_WHY = 512 };
 
 struct render_image {
     int width, height;
-    uint8_t *rgb;    /* [height][width][3], top row first */
-    int body[4];     /* x0, y0, x1, y1: the rectangle of the body's picture, without text and colour bar; this is what
-                        is compared. Kept in the PNG as a text chunk. */
+    uint8_t *rgb; /* [height][width][3], top row first */
+    int body[4];  /* x0, y0, x1, y1: the rectangle of the body's picture, without text and colour bar; this is what
+                     is compared. Kept in the PNG as a text chunk. */
 };
 
 /* What is drawn: polygons of a surface with one scalar per vertex, in filled contour bands. */
@@ -21,19 +21,19 @@ struct render_surface {
     const double *position; /* [vertex_count][3], deformed [m] */
     const double *scalar;   /* [vertex_count] */
     size_t quad_count;
-    const uint32_t *quad;   /* [quad_count][4]; a line (1D) or triangle repeats its last vertex */
+    const uint32_t *quad; /* [quad_count][4]; a line (1D) or triangle repeats its last vertex */
 };
 
 struct render_view {
     double direction[3]; /* from the body towards the eye; need not be of unit length */
     double up[3];
-    double range[2];     /* colour range */
+    double range[2]; /* colour range */
     int bands;
-    int width, height;   /* pixels */
-    double frame[6];     /* x0 x1 y0 y1 z0 z1 [m]: what must stay in sight, so that the view does not move with the body */
-    const char *title;   /* "Swinging cube, t = 0.002 s" */
-    const char *label;   /* "mean stress" */
-    const char *unit;    /* "Pa" */
+    int width, height; /* pixels */
+    double frame[6]; /* x0 x1 y0 y1 z0 z1 [m]: what must stay in sight, so that the view does not move with the body */
+    const char *title; /* "Swinging cube, t = 0.002 s" */
+    const char *label; /* "mean stress" */
+    const char *unit;  /* "Pa" */
 };
 
 bool render_draw(const struct render_surface *surface, const struct render_view *view, struct render_image **image,
@@ -49,7 +49,7 @@ struct render_difference {
     double worst_tile; /* the same share within the worst tile */
     int tile[2];       /* pixel position of the worst tile */
     double mean_delta_e;
-    bool same;         /* both shares within their limits */
+    bool same;                    /* both shares within their limits */
     struct render_image *picture; /* the difference as a picture, same size; NULL if not asked for */
 };
 /* Pictures of different size or body rectangle cannot be compared: false. */

@@ -1,0 +1,49 @@
+#include "render/context.h"
+
+#include "render/fail.h"
+
+#include <GL/osmesa.h>
+#include <stdlib.h>
+
+struct render_context {
+    OSMesaContext mesa;
+    uint8_t *pixels;
+};
+
+bool render_context_open(int width, int height, struct render_context **context, char why[RENDER_WHY])
+{
+    static const int wanted[] = {
+        OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, OSMESA_PROFILE, OSMESA_COMPAT_PROFILE, 0};
+    *context = NULL;
+    struct render_context *made = calloc(1, sizeof *made);
+    if (!made)
+        return render_fail(why, "no memory for an OpenGL context");
+    made->pixels = malloc((size_t)width * (size_t)height * 4);
+    if (!made->pixels) {
+        render_context_close(made);
+        return render_fail(why, "no memory for a drawing of %d x %d samples; draw a smaller picture", width, height);
+    }
+    made->mesa = OSMesaCreateContextAttribs(wanted, NULL);
+    if (!made->mesa || !OSMesaMakeCurrent(made->mesa, made->pixels, GL_UNSIGNED_BYTE, width, height)) {
+        render_context_close(made);
+        return render_fail(why, "OSMesa gives no OpenGL context of %d x %d samples with depth", width, height);
+    }
+    *context = made;
+    return true;
+}
+
+const uint8_t *render_context_pixels(struct render_context *context)
+{
+    glFinish();
+    return context->pixels;
+}
+
+void render_context_close(struct render_context *context)
+{
+    if (!context)
+        return;
+    if (context->mesa)
+        OSMesaDestroyContext(context->mesa);
+    free(context->pixels);
+    free(context);
+}
