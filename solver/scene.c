@@ -1,0 +1,261 @@
+/* Loading a scene: file, run in the sandbox, plain keys, structured parts, and what must hold between keys. */
+#include "solver/scene_internal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <lauxlib.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { LARGEST_FILE = 1 << 20 }; /* bytes */
+
+/* --- the file --- */
+
+/* Reads what is open as `file` into scene->text. */
+static bool read_open_file(struct solver_scene *scene, int file, struct solver_error *error)
+{
+    struct stat about;
+    const char *path = scene->path;
+    if (fstat(file, &about) != 0)
+        return solver_fail(error, SOLVER_IO, "%.400s: cannot be examined: %s", path, strerror(errno));
+    if (S_ISDIR(about.st_mode))
+        return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: is a directory; expected a scene file (.lua)", path);
+    if (!S_ISREG(about.st_mode))
+        return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: is no regular file; expected a scene file (.lua)", path);
+    if (about.st_size > LARGEST_FILE)
+        return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: has %lld bytes; a scene has at most %d", path,
+                           (long long)about.st_size, LARGEST_FILE);
+    size_t size = (size_t)about.st_size, got = 0;
+    scene->text = malloc(size + 1);
+    if (!scene->text)
+        return solver_fail(error, SOLVER_NO_MEMORY, "%.400s: no memory for its %zu bytes", path, size);
+    while (got < size) {
+        ssize_t step = read(file, scene->text + got, size - got);
+        if (step < 0 && errno == EINTR)
+            continue;
+        if (step <= 0)
+            return solver_fail(error, SOLVER_IO, "%.400s: reading stopped after %zu of %zu bytes: %s", path, got, size,
+                               step < 0 ? strerror(errno) : "the file was cut short");
+        got += (size_t)step;
+    }
+    scene->text[size] = '\0';
+    if (memchr(scene->text, '\0', size) || scene->text[0] == '\033')
+        return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: is binary; expected a scene written as text", path);
+    return true;
+}
+
+static bool read_file(struct solver_scene *scene, struct solver_error *error)
+{
+    int file = open(scene->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe must not make the program wait */
+    if (file < 0)
+        return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: cannot be opened: %s", scene->path, strerror(errno));
+    bool good = read_open_file(scene, file, error);
+    close(file);
+    return good;
+}
+
+/* Path and name of the scene, text of the overrides. */
+static bool describe(struct solver_scene *scene, const char *path, const char *const *overrides, size_t count,
+                     struct solver_error *error)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    size_t length = strlen(name), size = 1, used = 0;
+    if (strlen(path) >= sizeof scene->path)
+        return solver_fail(error, SOLVER_BAD_INPUT, "%.200s...: the path has %zu bytes; at most %zu are possible", path,
+                           strlen(path), sizeof scene->path - 1);
+    snprintf(scene->path, sizeof scene->path, "%s", path);
+    if (length > 4 && !strcmp(name + length - 4, ".lua"))
+        length -= 4;
+    if (length >= sizeof scene->name)
+        return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: the name has %zu bytes; at most %zu are possible", path,
+                           length, sizeof scene->name - 1);
+    snprintf(scene->name, sizeof scene->name, "%.*s", (int)length, name);
+    for (size_t i = 0; i < count; i++)
+        size += strlen(overrides[i]) + 1;
+    scene->overrides = calloc(size, 1);
+    if (!scene->overrides)
+        return solver_fail(error, SOLVER_NO_MEMORY, "%.400s: no memory for %zu overrides", path, count);
+    for (size_t i = 0; i < count; i++)
+        used += (size_t)snprintf(scene->overrides + used, size - used, "%s\n", overrides[i]);
+    return true;
+}
+
+/* --- resolution --- */
+
+/* "18 kB", "3.1 GB" */
+static void bytes_text(double bytes, char *out, size_t size)
+{
+    static const char *const unit[] = {"kB", "MB", "GB", "TB"};
+    size_t i = 0;
+    for (bytes /= 1e3; bytes >= 1e3 && i < 3; i++)
+        bytes /= 1e3;
+    snprintf(out, size, "%.3g %s", bytes, unit[i]);
+}
+
+/* Refuses an n whose lattice does not fit the box, or the machine. */
+static void check_lattice(lua_State *L, const struct solver_scene *scene, const char *key, double n)
+{
+    static const double per_particle[] = {0, 800, 1500, 3000}; /* bytes of state, stencil and integrator, rounded up */
+    double particles = 1, spacing = scene->reference_length / n;
+    for (int d = 0; d < scene->dim; d++) {
+        double edge = scene->upper[d] - scene->lower[d], spacings = edge / spacing;
+        if (!(fabs(spacings - round(spacings)) <= 1e-9 * spacings) || round(spacings) < 1)
+            scene_refuse(L, "%s = %.15g: the edge along %c, %g m, is %.6g spacings of %g m; expected a whole number",
+                         key, n, "XYZ"[d], edge, spacings, spacing);
+        particles *= round(spacings) + 1;
+    }
+    double needed = particles * per_particle[scene->dim];
+    double memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    char needed_text[32], memory_text[32];
+    bytes_text(needed, needed_text, sizeof needed_text);
+    bytes_text(memory, memory_text, sizeof memory_text);
+    if (needed > memory)
+        scene_refuse(L, "%s = %.15g: asks for %.3g particles and about %s of memory; this machine has %s", key, n,
+                     particles, needed_text, memory_text);
+    if (particles > 2147483648.0 || n > INT_MAX)
+        scene_refuse(L,
+                     "%s = %.15g: asks for %.3g particles and about %s of memory; at most 2^31 particles are possible",
+                     key, n, particles, needed_text);
+}
+
+/* The whole number on top of the stack. */
+static int read_n(lua_State *L, const struct solver_scene *scene, const char *key)
+{
+    double n = scene_read_number(L, key, -1, 1, 1e300, "whole number >= 1");
+    if (n != floor(n))
+        scene_refuse_value(L, key, "whole number >= 1", -1);
+    check_lattice(L, scene, key, n);
+    return (int)n;
+}
+
+static void read_resolution(lua_State *L, struct solver_scene *scene)
+{
+    scene_lua_push(L, "n");
+    scene->n = read_n(L, scene, "n");
+    lua_pop(L, 1);
+    scene_lua_push(L, "levels");
+    if (lua_isnil(L, -1)) {
+        scene->levels[0] = scene->n;
+        scene->level_count = 1;
+    } else {
+        double level[SOLVER_LEVELS];
+        size_t count = lua_istable(L, -1) ? lua_rawlen(L, -1) : 0;
+        if (count < 1 || count > SOLVER_LEVELS)
+            scene_refuse_value(L, "levels", "list of 1 to 16 increasing whole numbers >= 1", -1);
+        scene_read_numbers(L, "levels", -1, level, count);
+        for (size_t i = 0; i < count; i++) {
+            char key[32];
+            snprintf(key, sizeof key, "levels[%zu]", i + 1);
+            lua_rawgeti(L, -1, (lua_Integer)i + 1);
+            scene->levels[i] = read_n(L, scene, key);
+            lua_pop(L, 1);
+            if (i > 0 && scene->levels[i] <= scene->levels[i - 1])
+                scene_refuse(L, "%s: expected increasing values of n, got %d after %d", key, scene->levels[i],
+                             scene->levels[i - 1]);
+        }
+        scene->level_count = count;
+    }
+    lua_pop(L, 1);
+}
+
+/* --- what must hold between keys --- */
+
+static void check_domain(lua_State *L, struct solver_scene *scene)
+{
+    for (int d = 0; d < scene->dim; d++) {
+        double edge = scene->upper[d] - scene->lower[d];
+        if (!(edge > 0) || !isfinite(edge))
+            scene_refuse(L, "domain.upper[%d]: expected a number above domain.lower[%d] = %g, got %g", d + 1, d + 1,
+                         scene->lower[d], scene->upper[d]);
+    }
+    if (scene->reference_length == 0) /* not given */
+        scene->reference_length = scene->upper[0] - scene->lower[0];
+}
+
+static void check_view(lua_State *L, const struct solver_view *view)
+{
+    const double *d = view->direction, *up = view->up;
+    double cross[3] = {d[1] * up[2] - d[2] * up[1], d[2] * up[0] - d[0] * up[2], d[0] * up[1] - d[1] * up[0]};
+    if (!(view->range[0] < view->range[1]))
+        scene_refuse(L, "view.range: expected two increasing numbers, got %g and %g", view->range[0], view->range[1]);
+    if (cross[0] == 0 && cross[1] == 0 && cross[2] == 0)
+        scene_refuse(L, "view.up: expected a direction that is neither zero nor along view.direction");
+}
+
+static int read_scene(lua_State *L)
+{
+    struct solver_scene *scene = lua_touserdata(L, 1);
+    luaL_checkstack(L, 100, "scene");
+    scene_lua_run_file(L);
+    scene_overrides_finish(L);
+    scene_read_plain(L, scene);
+    if (scene->nu == 0.5)
+        scene_refuse(L,
+                     "material.nu: 0.5 is incompressible, which needs a solver that is not there yet; take nu < 0.5, "
+                     "say 0.4999");
+    check_domain(L, scene);
+    if (scene->has_view)
+        check_view(L, &scene->view);
+    read_resolution(L, scene);
+    scene_read_faces(L, scene);
+    scene_read_probes(L, scene);
+    scene_read_oracle(L, scene);
+    scene_read_published(L, scene);
+    scene_read_gates(L, scene);
+    scene_globals_freeze(L);
+    return 0;
+}
+
+/* Asks each formula once, so that one that fails does so at once; the corner asked is always a particle. */
+static bool try_formulas(const struct solver_scene *scene, struct solver_error *error)
+{
+    for (int f = 0; f < SOLVER_FORMULAS; f++) {
+        double X[3], value[9];
+        size_t dim = (size_t)scene->dim;
+        if (!solver_scene_has(scene, (enum solver_formula)f))
+            continue;
+        memcpy(X, scene->lower, sizeof X);
+        if (f > SOLVER_FACE_X0 && (f - SOLVER_FACE_X0) % 2)
+            X[(f - SOLVER_FACE_X0) / 2] = scene->upper[(f - SOLVER_FACE_X0) / 2];
+        if (!solver_scene_eval(scene, (enum solver_formula)f, X, 0, value, f == SOLVER_INITIAL_F ? dim * dim : dim,
+                               error))
+            return false;
+    }
+    return true;
+}
+
+bool solver_scene_load(const char *path, const char *const *overrides, size_t override_count,
+                       struct solver_scene **scene, struct solver_error *error)
+{
+    *scene = NULL;
+    struct solver_scene *fresh = calloc(1, sizeof *fresh);
+    if (!fresh)
+        return solver_fail(error, SOLVER_NO_MEMORY, "%.400s: no memory for a scene", path);
+    bool good = describe(fresh, path, overrides, override_count, error) && read_file(fresh, error) &&
+                scene_lua_create(fresh, error) && scene_overrides_parse(fresh->lua, overrides, override_count, error) &&
+                scene_lua_protect(fresh->lua, read_scene, fresh, error) && try_formulas(fresh, error);
+    if (!good) {
+        solver_scene_free(fresh);
+        return false;
+    }
+    free(fresh->lua->override); /* points into the caller's strings */
+    fresh->lua->override = NULL;
+    fresh->lua->override_count = 0;
+    *scene = fresh;
+    return true;
+}
+
+void solver_scene_free(struct solver_scene *scene)
+{
+    if (!scene)
+        return;
+    scene_lua_free(scene->lua);
+    free(scene->text);
+    free(scene->overrides);
+    free(scene);
+}

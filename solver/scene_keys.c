@@ -1,0 +1,208 @@
+/* The keys every scene understands: one row each. */
+#include "solver/scene_internal.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define AT(field)  offsetof(struct solver_scene, field)
+#define NEEDED     NULL
+#define OPTIONAL   ""
+#define ABOVE_ZERO DBL_MIN
+#define FACE_KINDS                                                                                                     \
+    "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f } or { kind = \"motion\", value = f }"
+#define FORMULA "function(X, Y, Z, t) returning dim numbers"
+
+/* clang-format off */
+/* key, kind, offset, low, high, count, words, preset, expects, meaning */
+#define KEYS(X)                                                                                                        \
+X("title", TEXT, AT(title), 0, 0, 0, "", NEEDED, "text", "what the scene shows")                                       \
+X("source", TEXT, AT(source), 0, 0, 0, "", OPTIONAL, "text", "paper and section the scene is taken from")              \
+X("parameters", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "table of NAME = number", "numbers of the scene's own")          \
+X("dim", INTEGER, AT(dim), 1, 3, 0, "", NEEDED, "1, 2 or 3", "space dimensions")                                       \
+X("domain.lower", NUMBERS, AT(lower), 0, 0, 0, "", NEEDED, "list of dim numbers [m]", "lower corner of the box")       \
+X("domain.upper", NUMBERS, AT(upper), 0, 0, 0, "", NEEDED, "list of dim numbers [m]", "upper corner of the box")       \
+X("reference_length", NUMBER, AT(reference_length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",            \
+  "spacing = reference_length / n; default: the first edge")                                                           \
+X("n", RESOLUTION, AT(n), 0, 0, 0, "", NEEDED, "whole number >= 1", "spacings along the reference length")             \
+X("levels", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing whole numbers >= 1",                    \
+  "values of n for a convergence study; default: n alone")                                                             \
+X("perturb", NUMBER, AT(perturb), 0, 0.3, 0, "", "0", "number in [0, 0.3]",                                            \
+  "random shift of interior particles, as a fraction of the spacing")                                                  \
+X("seed", SEED, AT(seed), 0, 0, 0, "", "1", "whole number >= 0", "of the random shift")                                \
+X("material.model", WORD, AT(material_model), 0, 0, 0, "linear-elastic neo-hookean", NEEDED,                           \
+  "one of linear-elastic, neo-hookean", "constitutive model")                                                          \
+X("material.E", NUMBER, AT(E), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [Pa]", "Young's modulus")               \
+X("material.nu", NUMBER, AT(nu), -1 + DBL_EPSILON / 2, 0.5, 0, "", NEEDED, "number in (-1, 0.5]", "Poisson's ratio")   \
+X("material.rho", NUMBER, AT(rho), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [kg/m^3]",                          \
+  "density in the reference configuration")                                                                            \
+X("scheme", WORD, AT(scheme), 0, 0, 0, "upwind | jst ulsph efg adaptle", "upwind", "one of upwind",                    \
+  "semi-discrete right-hand side")                                                                                     \
+X("evolved", INDEX, AT(evolved), 0, 0, 0, "pF pFJ pFHJ", "pFHJ", "one of pF, pFJ, pFHJ",                               \
+  "geometric measures with an equation of their own")                                                                  \
+X("stencil", WORD, AT(stencil), 0, 0, 0, "sph closed sbp2 sbp4", "sbp4", "one of sph, closed, sbp2, sbp4",             \
+  "how discrete gradients are built")                                                                                  \
+X("support", NUMBER, AT(support), 1, 4, 0, "", "2.1", "number in [1, 4]", "support radius / spacing")                  \
+X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares none", "stencil",                        \
+  "one of stencil, least-squares, none", "slopes of the linear reconstruction at the Riemann states")                  \
+X("integrator", WORD, AT(integrator), 0, 0, 0, "tvd-rk2 ssp-rk3 rk4 | euler", "rk4", "one of tvd-rk2, ssp-rk3, rk4",   \
+  "time integrator")                                                                                                   \
+X("cfl", NUMBER, AT(cfl), ABOVE_ZERO, 10, 0, "", "0.8", "number in (0, 10]", "Courant-Friedrichs-Lewy number")         \
+X("t_end", NUMBER, AT(t_end), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [s]", "end of the run")                  \
+X("precision", WORD, AT(precision), 0, 0, 0, "double | mixed", "double", "one of double", "floating-point precision")  \
+X("threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
+  "threads; 0: all that the machine offers")                                                                           \
+X("initial.displacement", FORMULA, SOLVER_INITIAL_DISPLACEMENT, 0, 0, 0, "", OPTIONAL, FORMULA,                        \
+  "initial displacement [m]; default 0")                                                                               \
+X("initial.velocity", FORMULA, SOLVER_INITIAL_VELOCITY, 0, 0, 0, "", OPTIONAL, FORMULA,                                \
+  "initial velocity [m/s]; default 0")                                                                                 \
+X("initial.F", FORMULA, SOLVER_INITIAL_F, 0, 0, 0, "", OPTIONAL,                                                       \
+  "function(X, Y, Z, t) returning dim * dim numbers, row by row",                                                      \
+  "initial deformation gradient; default: the stencil's gradient of the initial position")                             \
+X("body_force", FORMULA, SOLVER_BODY_FORCE, 0, 0, 0, "", OPTIONAL, FORMULA,                                            \
+  "force per unit reference volume [N/m^3]")                                                                           \
+X("faces.X0", FACE, 0, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lower X face; default free")               \
+X("faces.X1", FACE, 1, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper X face; default free")               \
+X("faces.Y0", FACE, 2, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lower Y face; default free")               \
+X("faces.Y1", FACE, 3, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper Y face; default free")               \
+X("faces.Z0", FACE, 4, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lower Z face; default free")               \
+X("faces.Z1", FACE, 5, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper Z face; default free")               \
+X("probes", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 { name = text, X = { ... } }",                     \
+  "places whose motion is recorded over time")                                                                         \
+X("oracle", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ name = text }; any number beside it is told to the oracle",       \
+  "exact solution that the scene answers to")                                                                          \
+X("published", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ source = text, { n = ..., NAME = error, ... }, ... }",         \
+  "the figures printed in the paper")                                                                                  \
+X("gates", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 32 { when = { KEY = value, ... }, NAME = bound, ... }",\
+  "largest errors and, as [\"rate NAME\"], smallest observed orders")                                                  \
+X("view.field", TEXT, AT(view.field), 0, 0, SOLVER_NAME, "", NEEDED, "name of a scalar of the record",                 \
+  "what the picture shows")                                                                                            \
+X("view.range", NUMBERS, AT(view.range), 0, 0, 2, "", NEEDED, "list of 2 numbers, increasing", "colour range")         \
+X("view.bands", INTEGER, AT(view.bands), 2, 64, 0, "", "12", "whole number in [2, 64]", "filled contour bands")        \
+X("view.direction", NUMBERS, AT(view.direction), 0, 0, 3, "", "{1,0.8,0.6}", "list of 3 numbers",                      \
+  "from the body towards the eye")                                                                                     \
+X("view.up", NUMBERS, AT(view.up), 0, 0, 3, "", "{0,0,1}", "list of 3 numbers", "what points up in the picture")       \
+X("view.magnify", NUMBER, AT(view.magnify), 0, DBL_MAX, 0, "", "1", "number >= 0",                                     \
+  "displacement shown / displacement")                                                                                 \
+X("view.size", INTEGERS, AT(view.size), 64, 8192, 2, "", "{1200,900}", "list of 2 whole numbers in [64, 8192]",        \
+  "pixels")
+/* clang-format on */
+
+#define SAY(key, kind, offset, low, high, count, words, preset, expects, meaning) {key, expects, meaning},
+#define RULE(key, kind, offset, low, high, count, words, preset, expects, meaning)                                     \
+    {SCENE_##kind, offset, low, high, count, words, preset},
+static const struct solver_scene_key keys[] = {KEYS(SAY){NULL, NULL, NULL}};
+static const struct scene_key rules[] = {KEYS(RULE)};
+
+const struct solver_scene_key *solver_scene_keys(void)
+{
+    return keys;
+}
+
+int scene_key_find(const char *path)
+{
+    for (int i = 0; keys[i].key; i++)
+        if (!strcmp(keys[i].key, path))
+            return i;
+    return -1;
+}
+
+const struct scene_key *scene_key_rule(int index)
+{
+    return &rules[index];
+}
+
+bool scene_key_is_root(const char *name)
+{
+    size_t length = strlen(name);
+    if (length == 0 || strchr(name, '.'))
+        return false;
+    for (int i = 0; keys[i].key; i++)
+        if (!strncmp(keys[i].key, name, length) && (keys[i].key[length] == '.' || keys[i].key[length] == '\0'))
+            return true;
+    return false;
+}
+
+bool scene_key_admits(const char *path)
+{
+    size_t length = strlen(path);
+    if (scene_key_find(path) >= 0 || scene_key_is_root(path))
+        return true;
+    if (!strncmp(path, "oracle.", 7) || !strncmp(path, "parameters.", 11))
+        return path[length - 1] != '.' && !strstr(path, "..");
+    char face[SOLVER_NAME];
+    if (strncmp(path, "faces.", 6) != 0 || length < 6 || length >= sizeof face || strcmp(path + length - 5, ".kind"))
+        return false;
+    snprintf(face, sizeof face, "%.*s", (int)(length - 5), path);
+    return scene_key_find(face) >= 0;
+}
+
+/* Levenshtein distance between two names, each cut to SOLVER_NAME - 1 bytes. */
+static size_t distance(const char *a, const char *b, size_t b_length)
+{
+    size_t row[SOLVER_NAME];
+    b_length = b_length < SOLVER_NAME ? b_length : SOLVER_NAME - 1;
+    for (size_t j = 0; j <= b_length; j++)
+        row[j] = j;
+    for (size_t i = 0; a[i] && i < SOLVER_NAME - 1; i++) {
+        size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (size_t j = 0; j < b_length; j++) {
+            size_t change = diagonal + (a[i] != b[j]);
+            size_t gap = 1 + (row[j] < row[j + 1] ? row[j] : row[j + 1]);
+            diagonal = row[j + 1];
+            row[j + 1] = change < gap ? change : gap;
+        }
+    }
+    return row[b_length];
+}
+
+void scene_key_suggest(const char *path, char *out, size_t size)
+{
+    size_t length = strlen(path), best = length < 2 ? 1 : length < 3 ? 2 : 3; /* farther is no likeness */
+    out[0] = '\0';
+    for (int i = 0; keys[i].key; i++) {
+        const char *key = keys[i].key, *dot = strchr(key, '.');
+        size_t part[] = {strlen(key), dot ? (size_t)(dot - key) : strlen(key)}; /* "material.nu" and "material" */
+        for (int k = 0; k < 2; k++) {
+            size_t d = distance(path, key, part[k]);
+            if (d < best) {
+                best = d;
+                snprintf(out, size, ", did you mean %.*s?", (int)part[k], key);
+            }
+        }
+        if (dot && !strcmp(dot + 1, path) && best > 0) { /* "nu" for "material.nu" */
+            best = 0;
+            snprintf(out, size, ", did you mean %s?", key);
+        }
+    }
+}
+
+int scene_word_find(const char *words, const char *word, bool *later)
+{
+    size_t length = strlen(word);
+    int place = 0;
+    *later = false;
+    while (*words) {
+        size_t step = strcspn(words, " ");
+        if (*words == '|')
+            *later = true;
+        else if (step == length && !strncmp(words, word, length))
+            return place;
+        else
+            place++;
+        words += step + strspn(words + step, " ");
+    }
+    return -1;
+}
+
+void scene_number_text(double value, char *out, size_t size)
+{
+    for (int digits = 15; digits <= 17; digits++) {
+        snprintf(out, size, "%.*g", digits, value);
+        if (strtod(out, NULL) == value)
+            return;
+    }
+}
