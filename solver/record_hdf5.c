@@ -33,10 +33,10 @@ static bool put_attribute(struct sink *sink, hid_t where, const char *name, hid_
     return ok;
 }
 
-static hid_t text_type(size_t size)
+static hid_t text_type(size_t size, H5T_cset_t letters)
 {
     hid_t type = H5Tcopy(H5T_C_S1);
-    if (H5Tset_size(type, size) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0) {
+    if (H5Tset_size(type, size) < 0 || H5Tset_cset(type, letters) < 0) {
         (void)H5Tclose(type);
         return H5I_INVALID_HID;
     }
@@ -45,7 +45,7 @@ static hid_t text_type(size_t size)
 
 static bool put_text(struct sink *sink, hid_t where, const char *name, const char *text)
 {
-    hid_t type = text_type(strlen(text) + 1);
+    hid_t type = text_type(strlen(text) + 1, H5T_CSET_UTF8);
     bool ok = put_attribute(sink, where, name, type, text);
     (void)H5Tclose(type);
     return ok;
@@ -177,6 +177,7 @@ static bool put_fields(struct sink *sink, hid_t grid, const struct solver_record
 static bool put_grid(struct sink *sink, const struct solver_record *record)
 {
     static const int64_t version[2] = {1, 0};
+    static const char type[] = "UnstructuredGrid";
     hid_t grid = create_group(sink, sink->file, "VTKHDF");
     if (grid < 0) {
         return false;
@@ -187,8 +188,8 @@ static bool put_grid(struct sink *sink, const struct solver_record *record)
     bool ok = H5Awrite(attribute, H5T_STD_I64LE, version) >= 0 || refuse(sink, "Version");
     (void)H5Aclose(attribute);
     (void)H5Sclose(space);
-    hid_t data = -1;
-    ok = ok && put_text(sink, grid, "Type", "UnstructuredGrid") &&
+    hid_t data = -1, letters = text_type(sizeof type - 1, H5T_CSET_ASCII); /* VTK 9.2 insists on ASCII */
+    ok = ok && put_attribute(sink, grid, "Type", letters, type) &&
          put_integer(sink, grid, "NumberOfPoints", record->count) &&
          put_integer(sink, grid, "NumberOfCells", record->cell_count) &&
          put_integer(sink, grid, "NumberOfConnectivityIds", record->cell_count * (size_t)record->cell_width) &&
@@ -201,6 +202,7 @@ static bool put_grid(struct sink *sink, const struct solver_record *record)
     if (data >= 0) {
         (void)H5Gclose(data);
     }
+    (void)H5Tclose(letters);
     (void)H5Gclose(grid);
     return ok;
 }
@@ -212,7 +214,7 @@ static bool put_history(struct sink *sink, const struct solver_record *record)
         return false;
     }
     const hsize_t columns = record->history_columns;
-    hid_t name = text_type(SOLVER_NAME), unit = text_type(RECORD_UNIT);
+    hid_t name = text_type(SOLVER_NAME, H5T_CSET_UTF8), unit = text_type(RECORD_UNIT, H5T_CSET_UTF8);
     struct block values = {"values", "see units", H5T_IEEE_F64LE, 2, {record->history_count, columns}, record->history};
     bool ok = put_block(sink, group, &values) &&
               put_block(sink, group, &(struct block){"columns", "-", name, 1, {columns, 1}, record->history_name}) &&

@@ -117,12 +117,12 @@ def main(folder):
         check(f"{path}: readable", hdf.CanReadFile(path) == 1)
         hdf.SetFileName(path)
         hdf.Update()
-        check_grid(path, dim, hdf.GetOutput())
-        time = hdf.GetOutput().GetFieldData().GetArray("TimeValue")
+        check_grid(path, dim, hdf.GetOutputDataObject(0))
+        time = hdf.GetOutputDataObject(0).GetFieldData().GetArray("TimeValue")
         check(f"{path}: time", time is not None and time.GetValue(0) == 0.25)
         xdmf = path.replace(".vtkhdf", ".xdmf")
         if not failures:
-            check_description(xdmf, dim, hdf.GetOutput())
+            check_description(xdmf, dim, hdf.GetOutputDataObject(0))
         for kind in readers:
             reader = kind()
             reader.SetFileName(xdmf)
