@@ -159,11 +159,22 @@ static bool write_reports(const struct work *work, struct solver_error *error)
     return true;
 }
 
+/* A level that cannot be had, because it asks for too much memory for instance, is refused before the first is run. */
+static bool open_all_levels(struct work *work, struct solver_error *error)
+{
+    for (size_t i = work->level_count; i-- > 0;) {
+        if (!open_level(work, work->level[i], error)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* The whole study; *passed says whether nothing it judged failed. */
 static bool study(struct work *work, bool *passed, struct solver_error *error)
 {
     if (!refuse_n(work->options, error) || !open_level(work, 0, error) || !choose_levels(work, error) ||
-        !open_level(work, work->level[0], error) || !verify_truth_create(work->scene, &work->truth, error)) {
+        !open_all_levels(work, error) || !verify_truth_create(work->scene, &work->truth, error)) {
         return false;
     }
     work->study.truth = &work->truth;

@@ -16,7 +16,8 @@ static const char style[] =
     "img{width:100%;height:auto}svg{font:12px system-ui,sans-serif}.note{color:#57606a;font-size:.9rem}"
     "pre{background:#f6f8fa;padding:1rem;overflow:auto;font-size:.85rem}"
     "svg .grid{stroke:#e3e7eb}svg .frame{fill:none;stroke:#57606a}"
-    "svg line.order{stroke:#8c959f;stroke-dasharray:5 4}svg text.order{fill:#6e7781;font-size:11px}"
+    "svg line.order{stroke:#8c959f;stroke-dasharray:5 4}svg "
+    "text.order{fill:#6e7781;font-size:11px;paint-order:stroke;stroke:#fff;stroke-width:4px}"
     "svg polyline{fill:none;stroke-width:2}svg polyline.measured{stroke:#0b5394}svg circle.measured{fill:#0b5394}"
     "svg polyline.published{stroke:#b35900;stroke-width:1}svg "
     "circle.published{fill:#fff;stroke:#b35900;stroke-width:2}";
@@ -206,7 +207,7 @@ static void oracle(FILE *file, const struct verify_truth *truth)
         const struct oracle_check *line = &truth->check[i];
         (void)fprintf(file, "<tr><td>");
         escape(file, line->law);
-        (void)fprintf(file, "</td><td>%.2e</td><td>%.0e</td><td class=\"%s</td></tr>\n", line->residual, line->bound,
+        (void)fprintf(file, "</td><td>%.2e</td><td>%.1e</td><td class=\"%s</td></tr>\n", line->residual, line->bound,
                       oracle_law_holds(line) ? "pass\">holds" : "fail\">FAILS");
     }
     (void)fprintf(file, "</table>\n");

@@ -30,10 +30,10 @@ static void print_truth(FILE *file, const struct verify_truth *truth)
                           truth->value[i], parameter->unit);
         }
     }
-    (void)fprintf(file, "\n  %-44s %10s    %s\n", "self-check of the oracle", "residual", "bound");
+    (void)fprintf(file, "\n  %-44s %10s    %s\n", "self-check of the oracle", "residual", "bound [-]");
     for (size_t i = 0; i < truth->check_count; i++) {
         const struct oracle_check *line = &truth->check[i];
-        (void)fprintf(file, "  %-44s %10.2e <= %-8.0e %s\n", line->law, line->residual, line->bound,
+        (void)fprintf(file, "  %-44s %10.2e <= %-8.1e %s\n", line->law, line->residual, line->bound,
                       oracle_law_holds(line) ? "holds" : "FAILS");
     }
     if (!truth->proven) {
@@ -138,6 +138,12 @@ static void print_gates(FILE *file, const struct verify_study *study)
         (void)fprintf(file, "\nNOT JUDGED: no gate of the scene holds for this configuration, so nothing above was "
                             "tested against a bound.\n");
         return;
+    }
+    const struct solver_scene *scene = study->scene;
+    int n = study->level[study->level_count - 1].n;
+    if (scene->level_count > 0 && n != scene->levels[scene->level_count - 1]) {
+        (void)fprintf(file, "\nThe scene's bounds are meant for n = %d; the finest level here is n = %d.\n",
+                      scene->levels[scene->level_count - 1], n);
     }
     (void)fprintf(file, "\n  %-16s %12s    %-12s %s\n", "gate", "measured", "bound", "unit");
     for (size_t i = 0; i < study->gates.count; i++) {

@@ -1,0 +1,117 @@
+"""study_json.py PROGRAM FOLDER WORD...: runs `PROGRAM verify WORD... --json FILE` and checks the file: its shape, its
+numbers, and that verdict, gates and exit code agree. Then spoils a copy in every way it knows and must refuse each."""
+import copy
+import json
+import math
+import os
+import subprocess
+import sys
+
+TOP = {"scene", "oracle", "scheme", "stencil", "levels", "rates", "gates", "pass"}
+LEVEL = {"n", "h", "particles", "steps", "seconds", "ns_per_particle_step", "errors"}
+GATE = {"name", "value", "bound", "op", "pass"}
+ERRORS = {f + e for f in ("p", "P", "P_all", "u", "F") for e in ("", "_abs", "_max", "_abs_max")}
+
+
+def demand(condition, what):
+    if not condition:
+        raise ValueError(what)
+
+
+def is_number(value):
+    return type(value) in (int, float) and math.isfinite(value)
+
+
+def check_level(level):
+    demand(set(level) == LEVEL, f"keys of a level: {sorted(level)}")
+    for key in ("n", "particles", "steps"):
+        demand(type(level[key]) is int and level[key] > 0, f"level {key} = {level[key]}")
+    for key in ("h", "seconds", "ns_per_particle_step"):
+        demand(is_number(level[key]) and level[key] >= 0, f"level {key} = {level[key]}")
+    demand(set(level["errors"]) == ERRORS, f"names of errors: {sorted(level['errors'])}")
+    for name, value in level["errors"].items():
+        demand(is_number(value) and value > 0, f"error {name} = {value}")
+    per_step = 1e9 * level["seconds"] / (level["particles"] * level["steps"])
+    demand(math.isclose(per_step, level["ns_per_particle_step"], rel_tol=1e-9), "time per particle-step")
+
+
+def check_gate(gate, study):
+    demand(set(gate) == GATE, f"keys of a gate: {sorted(gate)}")
+    demand(gate["op"] in ("<=", ">=") and is_number(gate["bound"]), f"gate {gate}")
+    rate = gate["name"].startswith("rate ")
+    source = study["rates"] if rate else study["levels"][-1]["errors"]
+    demand(gate["value"] == source[gate["name"][5 if rate else 0:]], f"value of gate {gate['name']}")
+    holds = gate["value"] <= gate["bound"] if gate["op"] == "<=" else gate["value"] >= gate["bound"]
+    demand(gate["pass"] is holds, f"gate {gate['name']} says {gate['pass']}")
+
+
+def check(study, code):
+    demand(set(study) == TOP, f"keys: {sorted(study)}")
+    for key in ("scene", "oracle", "scheme", "stencil"):
+        demand(type(study[key]) is str and study[key] != "", f"{key} = {study[key]}")
+    demand(len(study["levels"]) >= 2, "at least two levels")
+    for level in study["levels"]:
+        check_level(level)
+    coarse, fine = study["levels"][-2:]
+    demand(set(study["rates"]) == ERRORS, "names of rates")
+    for name, rate in study["rates"].items():
+        order = math.log(coarse["errors"][name] / fine["errors"][name]) / math.log(coarse["h"] / fine["h"])
+        demand(is_number(rate) and math.isclose(rate, order, abs_tol=1e-9), f"rate {name} = {rate}, not {order}")
+    demand(len(study["gates"]) > 0, "at least one gate")
+    for gate in study["gates"]:
+        check_gate(gate, study)
+    demand(study["pass"] is all(gate["pass"] for gate in study["gates"]), f"pass = {study['pass']}")
+    demand(code == (0 if study["pass"] else 1), f"exit code {code} with pass = {study['pass']}")
+
+
+def places(value, path=()):
+    """Every place in the document, as a path of keys."""
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, inner in items:
+        yield path + (key,)
+        yield from places(inner, path + (key,))
+
+
+def spoiled(study):
+    """Copies with one thing wrong: a key gone, a value of the wrong kind, an unknown key."""
+    for path in places(study):
+        if path[-1] != 0 and isinstance(path[-1], int):
+            continue  # a level or gate left out at the end can be a right study of its own
+        for wrong in ("gone", None, "?"):
+            copied = copy.deepcopy(study)
+            inner = copied
+            for key in path[:-1]:
+                inner = inner[key]
+            if wrong == "gone" and isinstance(inner, dict):
+                del inner[path[-1]]
+            elif wrong == "gone" or (wrong == "?" and type(inner[path[-1]]) is str and path[-1] != "op"):
+                continue
+            else:
+                inner[path[-1]] = wrong
+            yield path, wrong, copied
+    yield ("unknown",), "added", {**study, "unknown": 1}
+
+
+def main():
+    program, folder, *words = sys.argv[1:]
+    os.makedirs(folder, exist_ok=True)
+    path = os.path.join(folder, "study.json")
+    run = subprocess.run([program, "verify", *words, "--out", folder, "--json", path], stdout=subprocess.PIPE, text=True)
+    print(run.stdout)
+    with open(path, encoding="utf-8") as file:
+        study = json.load(file, parse_constant=lambda word: demand(False, f"{word} is no JSON"))
+    check(study, run.returncode)
+    with open(os.path.join(folder, "report.json"), encoding="utf-8") as file:
+        demand(json.load(file) == study, "report.json is the same")
+    count = 0
+    for place, wrong, copied in spoiled(study):
+        count += 1
+        try:
+            check(copied, run.returncode)
+        except (ValueError, KeyError, TypeError, IndexError, AttributeError):
+            continue
+        raise SystemExit(f"FAIL: {'.'.join(map(str, place))} spoiled ({wrong}) was not noticed")
+    print(f"the shape holds; {count} spoiled copies were refused")
+
+
+main()

@@ -1,0 +1,86 @@
+# The command line from outside: exit codes, messages, files.
+set(cli sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh)
+set(assay $<TARGET_FILE:assay>)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+# What was typed or given is wrong: exit code 2, and the message says what.
+function(cli_refuses name text)
+  assay_test(cli-${name} LABELS mustfail COMMAND ${cli} 2 ${text} ${assay} ${ARGN})
+endfunction()
+
+cli_refuses(no-command "usage: assay COMMAND")
+cli_refuses(wrong-command "did you mean assay verify?" verfy swinging-cube)
+cli_refuses(no-scene "wants SCENE" verify)
+cli_refuses(wrong-scene "did you mean swinging-cube?" verify swinging-cub)
+cli_refuses(missing-scene-file "/nowhere/x.lua" run /nowhere/x.lua)
+cli_refuses(scene-is-folder "directory" run ./CMakeFiles/)
+cli_refuses(wrong-option "did you mean --levels?" verify swinging-cube --lvels 4,8)
+cli_refuses(option-of-another "unknown option --levels" run swinging-cube --levels 4,8)
+cli_refuses(wrong-levels "must increase" verify swinging-cube --levels 8,4)
+cli_refuses(huge-level "memory" verify swinging-cube --levels 8,100000)
+cli_refuses(n-in-a-study "--levels" verify swinging-cube --set n=8)
+cli_refuses(wrong-key "material.nuu" verify swinging-cube --set material.nuu=0.3)
+cli_refuses(wrong-value "material.nu" verify swinging-cube --set material.nu=0.7)
+cli_refuses(wrong-oracle-key "oracle.V0" verify swinging-cube --set oracle.V0=1)
+cli_refuses(wrong-oracle-value "material.nu" verify swinging-cube --set oracle.material.nu=0.7)
+cli_refuses(wrong-subject "did you mean keys?" list kyes)
+cli_refuses(wrong-golden-verb "check or update" golden chek swinging-cube)
+cli_refuses(no-golden-record "golden update swinging-cube" golden check swinging-cube --dir test-out/no-golden
+            --out test-out/no-golden)
+cli_refuses(missing-record "nothing-there.vtkhdf" render nothing-there.vtkhdf)
+cli_refuses(foreign-record "CMakeCache.txt" render CMakeCache.txt)
+cli_refuses(json-to-a-device "not a plain file" verify swinging-cube --levels 8 --out test-out/device
+            --json /dev/null)
+cli_refuses(out-is-a-file "CMakeCache.txt" run swinging-cube --set n=8 --out CMakeCache.txt)
+
+foreach(command list run verify render golden)
+  assay_test(cli-help-${command} LABELS unit COMMAND ${cli} 0 "usage: assay ${command}" ${assay} ${command} --help)
+endforeach()
+assay_test(cli-list LABELS unit COMMAND ${cli} 0 "Swinging cube" ${assay} list)
+assay_test(cli-list-keys LABELS unit COMMAND ${cli} 0 "material.nu" ${assay} list keys)
+
+# An oracle that is told another number than the solver must make the gates fail: amplitude and modulus by 1 %.
+set(mismatch sh ${CMAKE_CURRENT_SOURCE_DIR}/mismatch.sh ${assay})
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/test-out)
+assay_test(mismatch-amplitude LABELS gate mustfail COMMAND ${mismatch} test-out/amplitude oracle.U0=5.05e-4)
+assay_test(mismatch-modulus LABELS gate mustfail COMMAND ${mismatch} test-out/modulus oracle.material.E=17.17e6)
+assay_test(mismatch-density LABELS gate mustfail COMMAND ${mismatch} test-out/density oracle.rho=1111)
+
+# With one level no order was observed, and gates on orders cannot pass.
+assay_test(one-level LABELS gate mustfail COMMAND ${cli} 1 "nothing was measured"
+  ${assay} verify swinging-cube --levels 8 --out test-out/one-level)
+# A run that breaks down: exit code 3, and the last good state on disk.
+assay_test(breakdown LABELS gate mustfail COMMAND ${cli} 3 "the last good state is in test-out/breakdown/"
+  ${assay} run swinging-cube --set n=8 --set t_end=1 --set cfl=3 --out test-out/breakdown)
+assay_test(breakdown-record LABELS gate COMMAND ${assay} render test-out/breakdown/swinging-cube.last-good.vtkhdf)
+set_tests_properties(breakdown PROPERTIES FIXTURES_SETUP breakdown)
+set_tests_properties(breakdown-record PROPERTIES FIXTURES_REQUIRED "program;breakdown")
+
+# Stored results: what was just stored compares equal, and a run with a modulus off by 1e-8 does not.
+assay_test(golden-round-trip LABELS golden COMMAND sh -c
+  "$<TARGET_FILE:assay> golden update swinging-cube --dir test-out/golden &&
+   $<TARGET_FILE:assay> golden check swinging-cube --dir test-out/golden --out test-out/golden-fresh")
+set_tests_properties(golden-round-trip PROPERTIES FIXTURES_SETUP golden-round-trip)
+assay_test(golden-notices LABELS golden mustfail COMMAND ${cli} 1 "FAIL: the result is not as stored"
+  ${assay} golden check swinging-cube --dir test-out/golden --out test-out/golden-other --set material.E=17.00000017e6)
+assay_test(golden-shows LABELS golden mustfail COMMAND sh -c
+  "rm -f test-out/golden-shown/*.png
+   $<TARGET_FILE:assay> golden check swinging-cube --dir test-out/golden --out test-out/golden-shown --set material.E=18e6
+   test $? = 1 && cd test-out/golden-shown && ls swinging-cube.diff.png swinging-cube.stored.png swinging-cube.fresh.png")
+set_tests_properties(golden-notices golden-shows PROPERTIES FIXTURES_REQUIRED "program;golden-round-trip")
+
+# The JSON report and its checker, on a study that passes or fails and on one that must fail.
+assay_test(json-shape LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py ${assay}
+  test-out/json-shape swinging-cube)
+assay_test(json-shape-mismatch LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py
+  ${assay} test-out/json-mismatch swinging-cube --levels 8,12 --set oracle.U0=5.05e-4)
+
+# From a run to its picture, drawn again from the record alone.
+assay_test(run-and-render LABELS image COMMAND sh -c
+  "$<TARGET_FILE:assay> run swinging-cube --set n=8 --out test-out/render &&
+   $<TARGET_FILE:assay> render test-out/render/swinging-cube.vtkhdf -o test-out/render/again.png &&
+   cmp test-out/render/swinging-cube.png test-out/render/again.png")
+assay_test(render-another-field LABELS image COMMAND sh -c
+  "$<TARGET_FILE:assay> run swinging-cube --set n=8 --out test-out/field &&
+   $<TARGET_FILE:assay> render test-out/field/swinging-cube.vtkhdf -o test-out/field/u.png --set view.field=displacement_x &&
+   ! cmp -s test-out/field/swinging-cube.png test-out/field/u.png")
