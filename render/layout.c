@@ -4,7 +4,7 @@
 
 struct render_layout render_layout(int width, int height)
 {
-    const float w = (float)width, h = (float)height, unit = fminf(w / 800, h / 640);
+    const float w = (float)width, h = (float)height, unit = fminf(w / 800, h / 400);
     const float top = 50 * unit, right = 134 * unit, bottom = 72 * unit, rim = 10 * unit;
     return (struct render_layout){
         .unit = unit,

@@ -6,7 +6,7 @@
 #include "render/paint.h"
 
 struct render_layout {
-    float unit;     /* pixels per pixel of a picture of 800 x 640 */
+    float unit;     /* pixels per pixel of a picture 800 wide and at least 400 high */
     int body[4];    /* x0, y0, x1, y1 */
     float title[3]; /* x and baseline of the title, and its width at most */
     float bar[4];   /* x0, y0, x1, y1 of the colour bar */
