@@ -13,6 +13,7 @@ enum {
     FILE_BUDGET = 10000000, /* instructions */
     CALL_BUDGET = 1000000,
     HOOK_STEP = 1000,
+    WEIGHT_STEP = 256 << 10, /* bytes */
     MEMORY_LIMIT = 64 << 20, /* bytes */
     STRING_LIMIT = 16 << 10  /* bytes: what one instruction does to a string must stay short */
 };
@@ -39,7 +40,7 @@ static void *allocate(void *context, void *block, size_t old_size, size_t new_si
         return NULL;
     }
     if (new_size > held && lua->bytes - held + new_size > MEMORY_LIMIT) {
-        lua->out_of = "more than 64 MiB of memory: endless recursion, or a table that never ends?";
+        lua->out_of = "more than 64 MiB of memory";
         return NULL;
     }
     void *grown = realloc(block, new_size);
@@ -54,9 +55,10 @@ static void count_down(lua_State *L, lua_Debug *where)
 {
     (void)where;
     struct solver_scene_lua *lua = scene_lua_of(L);
-    lua->budget -= HOOK_STEP;
+    /* One instruction can copy what is held, so the more is held the faster the budget is spent. */
+    lua->budget -= HOOK_STEP * (1 + (long)(lua->bytes / WEIGHT_STEP));
     if (lua->budget < 0)
-        scene_refuse(L, "did not end within %ld instructions: an endless loop?", lua->budget_full);
+        scene_refuse(L, "did not end within its budget of %ld instructions: an endless loop?", lua->budget_full);
 }
 
 static void set_budget(struct solver_scene_lua *lua, long instructions)
