@@ -36,7 +36,7 @@ static void components(struct columns *at, const char *name, const char *unit, c
                        int from, int to)
 {
     for (int i = from; i < to; i++) {
-        char full[2 * SOLVER_NAME];
+        char full[2 * SOLVER_NAME + 2];
         (void)snprintf(full, sizeof full, "%s_%c", name, "xyz"[i]);
         column(at, full, unit, first == NULL ? NULL : first + i, stride);
     }
