@@ -84,3 +84,6 @@ assay_test(render-another-field LABELS image COMMAND sh -c
   "$<TARGET_FILE:assay> run swinging-cube --set n=8 --out test-out/field &&
    $<TARGET_FILE:assay> render test-out/field/swinging-cube.vtkhdf -o test-out/field/u.png --set view.field=displacement_x &&
    ! cmp -s test-out/field/swinging-cube.png test-out/field/u.png")
+
+assay_test(report-html LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_html.py ${assay}
+  test-out/report-html)

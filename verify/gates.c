@@ -65,7 +65,7 @@ static bool judge_bound(const struct solver_scene *scene, size_t index, const st
 bool verify_gates_judge(const struct solver_scene *scene, const double error[VERIFY_ERRORS],
                         const double rate[VERIFY_ERRORS], struct verify_gates *gates, struct solver_error *why)
 {
-    bool met[SOLVER_GATES], any_with_conditions = false;
+    bool met[SOLVER_GATES] = {false}, any_with_conditions = false;
     for (size_t i = 0; i < scene->gate_count; i++) {
         if (!holds(scene, i, &met[i], why)) {
             return false;
@@ -76,7 +76,7 @@ bool verify_gates_judge(const struct solver_scene *scene, const double error[VER
     gates->pass = true;
     for (size_t i = 0; i < scene->gate_count; i++) {
         for (size_t j = 0; j < scene->gate[i].bounds; j++) {
-            struct verify_gate gate;
+            struct verify_gate gate = {.pass = false};
             if (!judge_bound(scene, i, &scene->gate[i].bound[j], error, rate, &gate, why)) {
                 return false;
             }

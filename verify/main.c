@@ -60,6 +60,7 @@ static const struct verify_command commands[] = {
      .least = 2,
      .most = 2,
      .run = verify_command_golden},
+    /* assay bench: a row here, and command_bench.c */
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 

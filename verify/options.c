@@ -75,10 +75,10 @@ static bool read_levels(const struct verify_command *command, const char *text, 
 {
     options->level_count = 0;
     for (const char *c = text;; c++) {
-        char *end = NULL;
+        char *end = (char *)c;
         errno = 0;
         long n = isdigit((unsigned char)*c) ? strtol(c, &end, 10) : 0;
-        if (end == NULL || errno != 0 || n < 1 || n > INT_MAX || (*end != ',' && *end != '\0')) {
+        if (errno != 0 || n < 1 || n > INT_MAX || (*end != ',' && *end != '\0')) {
             return bad(error, command, text, "--levels wants whole numbers above 0 with commas between, as in 4,8,16");
         }
         if (options->level_count > 0 && n <= options->level[options->level_count - 1]) {
@@ -192,11 +192,12 @@ bool verify_options_parse(const struct verify_command *command, int count, char 
         if (option == NULL || !takes(command, option)) {
             return unknown(command, word, error);
         }
-        const char *value = word[length] == '=' ? word + length + 1 : NULL;
-        if (option->value == NULL && value != NULL) {
+        bool attached = word[length] == '=';
+        const char *value = attached ? word + length + 1 : "";
+        if (option->value == NULL && attached) {
             return bad(error, command, word, "takes no value");
         }
-        if (option->value != NULL && value == NULL) {
+        if (option->value != NULL && !attached) {
             if (i + 1 == count) {
                 return solver_fail(error, SOLVER_BAD_INPUT, "%s wants %s after it; see assay %s --help", word,
                                    option->value, command->name);

@@ -168,18 +168,18 @@ bool verify_picture_draw(const struct solver_record *record, const struct solver
                          struct render_image **image, struct solver_error *error)
 {
     const struct solver_view *used = view != NULL ? view : &corner_view;
-    double *position = calloc(record->count, 3 * sizeof *position);
-    double *scalar = calloc(record->count, sizeof *scalar);
     const char *unit = "";
     char full_title[SOLVER_TEXT + 64];
     (void)snprintf(full_title, sizeof full_title, "%s, t = %.6g s", title, record->time);
-    bool done = (position != NULL && scalar != NULL) ||
-                solver_fail(error, SOLVER_NO_MEMORY, "no memory for the picture of %zu particles", record->count);
-    done = done && place(record, used->magnify, position, error) &&
-           read_scalar(record, used->field, scalar, &unit, error) &&
-           draw_surface(record, used, full_title, position, scalar, unit, image, error);
+    double *position = calloc(record->count, 4 * sizeof *position);
+    if (position == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the picture of %zu particles", record->count);
+    }
+    double *scalar = position + 3 * record->count;
+    bool done = place(record, used->magnify, position, error) &&
+                read_scalar(record, used->field, scalar, &unit, error) &&
+                draw_surface(record, used, full_title, position, scalar, unit, image, error);
     free(position);
-    free(scalar);
     return done;
 }
 

@@ -46,11 +46,11 @@ static double y_of(const struct axes *axes, double e)
 
 static void draw_axes(FILE *file, const struct axes *axes, const struct verify_study *study, size_t error)
 {
-    for (double decade = axes->y0; decade < axes->y1 + 0.5; decade++) {
+    for (int decade = (int)axes->y0; decade <= (int)axes->y1; decade++) {
         double y = y_of(axes, pow(10, decade));
         (void)fprintf(file, "<line class=\"grid\" x1=\"%d\" y1=\"%.1f\" x2=\"%d\" y2=\"%.1f\"/>", LEFT, y, RIGHT, y);
         (void)fprintf(file,
-                      "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">10<tspan dy=\"-6\" font-size=\"10\">%.0f</tspan>"
+                      "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">10<tspan dy=\"-6\" font-size=\"10\">%d</tspan>"
                       "</text>\n",
                       LEFT - 8, y + 4, decade);
     }

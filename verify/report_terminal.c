@@ -174,9 +174,13 @@ void verify_terminal_totals(FILE *file, const struct solver_totals *first, const
     print_vector(file, "angular momentum", first->angular, last->angular, "kg m^2/s");
     (void)fprintf(file, "  %-18s %.9e -> %.9e J\n", "kinetic energy", first->kinetic, last->kinetic);
     (void)fprintf(file, "  %-18s %.9e -> %.9e J\n", "strain energy", first->strain, last->strain);
-    double before = first->kinetic + first->strain, after = last->kinetic + last->strain;
     (void)fprintf(file, "  %-18s %.9e J\n", "external work", last->external - first->external);
-    (void)fprintf(file, "  %-18s %.3e J (%.3e of the energy at the start; dissipation where negative)\n",
-                  "energy gained", after - before - (last->external - first->external),
-                  before > 0 ? (after - before - (last->external - first->external)) / before : NAN);
+    double work = last->external - first->external, before = first->kinetic + first->strain;
+    double gained = last->kinetic + last->strain - before - work;
+    double scale = fmax(before, fabs(work));
+    (void)fprintf(file, "  %-18s %.3e J (%.3e of the energy put in; dissipation where negative)\n", "energy gained",
+                  gained, scale > 0 ? gained / scale : NAN);
+    if (!(gained <= 0.01 * scale)) {
+        (void)fprintf(file, "  WARNING: the energy grew out of nothing by more than 1 %%: the run is not stable\n");
+    }
 }

@@ -71,7 +71,7 @@ static const char *written(void)
     FILE *file = open_text(&size);
     verify_json(file, &study);
     (void)fclose(file);
-    return text;
+    return text != NULL ? text : "";
 }
 
 static bool says(const char *part)
@@ -94,8 +94,7 @@ static void digits_are_kept(void)
     prepare();
     study.level[0].error[0] = 0.1 + 0.2;
     const char *place = strstr(written(), "\"p\": ");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(place);
-    CU_ASSERT(strtod(place + 5, NULL) == 0.1 + 0.2);
+    CU_ASSERT(place != NULL && strtod(place + 5, NULL) == 0.1 + 0.2);
 }
 
 static void verdicts(void)

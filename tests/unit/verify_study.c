@@ -3,12 +3,12 @@
 #include "verify/study.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static void power_laws(void)
 {
     for (int order = 1; order <= 4; order++) {
-        for (double h = 1; h > 1e-3; h /= 3) {
+        for (int n = 1; n < 1000; n *= 3) {
+            double h = 1.0 / n;
             double observed = verify_order(7 * pow(h, order), h, 7 * pow(h / 1.5, order), h / 1.5);
             CU_ASSERT_DOUBLE_EQUAL(observed, order, 1e-12);
         }
@@ -39,43 +39,40 @@ static void zero_at_one_level(void)
     CU_ASSERT(verify_order(0, 0.1, 1e-3, 0.05) == -INFINITY);
 }
 
+static struct verify_study study;
+static struct solver_scene scene;
+
 static void levels_added(void)
 {
-    struct verify_study *study = calloc(1, sizeof *study);
-    CU_ASSERT_PTR_NOT_NULL_FATAL(study);
     struct verify_level level = {.n = 4, .facts = {.particles = 125, .steps = 8, .spacing = 0.25, .seconds = 1e-3}};
     level.error[0] = 4e-2;
-    verify_study_add(study, &level);
-    CU_ASSERT(isnan(study->level[0].rate[0]));
-    CU_ASSERT_DOUBLE_EQUAL(study->level[0].ns_per_particle_step, 1000, 1e-9);
+    verify_study_add(&study, &level);
+    CU_ASSERT(isnan(study.level[0].rate[0]));
+    CU_ASSERT_DOUBLE_EQUAL(study.level[0].ns_per_particle_step, 1000, 1e-9);
     level.n = 8;
     level.facts.spacing = 0.125;
     level.error[0] = 1e-2;
-    verify_study_add(study, &level);
-    CU_ASSERT_EQUAL(study->level_count, 2);
-    CU_ASSERT_DOUBLE_EQUAL(study->level[1].rate[0], 2, 1e-12);
-    free(study);
+    verify_study_add(&study, &level);
+    CU_ASSERT_EQUAL(study.level_count, 2);
+    CU_ASSERT_DOUBLE_EQUAL(study.level[1].rate[0], 2, 1e-12);
 }
 
 static void published_rows(void)
 {
-    struct solver_scene *scene = calloc(1, sizeof *scene);
-    CU_ASSERT_PTR_NOT_NULL_FATAL(scene);
-    scene->published_count = 1;
-    scene->published[0] = (struct solver_published_row){.n = 16, .count = 1, .value = {{"p", 2.198e-4}}};
-    CU_ASSERT(verify_published(scene, 16, "p") == 2.198e-4);
-    CU_ASSERT(isnan(verify_published(scene, 16, "P")));
-    CU_ASSERT(isnan(verify_published(scene, 8, "p")));
+    scene.published_count = 1;
+    scene.published[0] = (struct solver_published_row){.n = 16, .count = 1, .value = {{"p", 2.198e-4}}};
+    CU_ASSERT(verify_published(&scene, 16, "p") == 2.198e-4);
+    CU_ASSERT(isnan(verify_published(&scene, 16, "P")));
+    CU_ASSERT(isnan(verify_published(&scene, 8, "p")));
     size_t shown[VERIFY_ERRORS];
     struct solver_error error;
-    CU_ASSERT_EQUAL(verify_shown(scene, shown, &error), 2);
-    scene->gate_count = 1;
-    scene->gate[0] = (struct solver_gate_rule){.bounds = 2, .bound = {{"u_max", 1}, {"rate F", 1}}};
-    CU_ASSERT_EQUAL(verify_shown(scene, shown, &error), 4);
-    scene->published[0].value[0].name[0] = 'q';
-    CU_ASSERT_EQUAL(verify_shown(scene, shown, &error), 0);
+    CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 2);
+    scene.gate_count = 1;
+    scene.gate[0] = (struct solver_gate_rule){.bounds = 2, .bound = {{"u_max", 1}, {"rate F", 1}}};
+    CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 4);
+    scene.published[0].value[0].name[0] = 'q';
+    CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 0);
     CU_ASSERT_EQUAL(error.code, SOLVER_BAD_INPUT);
-    free(scene);
 }
 
 int main(void)

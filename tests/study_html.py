@@ -1,0 +1,75 @@
+"""study_html.py PROGRAM FOLDER: runs a short study of a scene whose title is full of markup and checks report.html: tags
+balanced, nothing escapes, nothing loaded from elsewhere, both pictures inside, every plotted point within its frame."""
+import base64
+import html.parser
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+TITLE = """<script>alert("1 & 2")</script>'"""
+VOID = {"meta", "img", "br"}
+
+
+class Page(html.parser.HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.open, self.seen, self.pictures, self.points, self.heading = [], [], [], 0, ""
+
+    def handle_startendtag(self, tag, attributes):
+        self.look(tag, dict(attributes))
+
+    def handle_starttag(self, tag, attributes):
+        self.look(tag, dict(attributes))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open[-1] == tag, f"</{tag}> closes {self.open[-1:]}"
+        self.open.pop()
+
+    def handle_data(self, data):
+        if self.open[-1:] == ["h1"]:
+            self.heading += data
+
+    def look(self, tag, attributes):
+        self.seen.append(tag)
+        for name in ("src", "href", "xlink:href"):
+            value = attributes.get(name, "data:")
+            assert value.startswith("data:"), f"{tag} loads {value[:60]}"
+        if tag == "img":
+            self.pictures.append(base64.b64decode(attributes["src"].split(",", 1)[1], validate=True))
+        if tag == "circle":
+            x, y = float(attributes["cx"]), float(attributes["cy"])
+            assert math.isfinite(x) and 70 <= x <= 500 and 20 <= y <= 340, f"a point lies at {x}, {y}"
+            self.points += 1
+
+
+def main():
+    program, folder = sys.argv[1:]
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    run = subprocess.run([program, "verify", "swinging-cube", "--levels", "8,12", "--out", folder, "--set",
+                          "title=" + TITLE], stdout=subprocess.PIPE, text=True)
+    print(run.stdout)
+    assert run.returncode in (0, 1), f"exit code {run.returncode}"
+    with open(os.path.join(folder, "report.html"), encoding="utf-8") as file:
+        text = file.read()
+    page = Page()
+    page.feed(text)
+    page.close()
+    assert page.open == [], f"left open: {page.open}"
+    assert page.heading == TITLE, f"the title reads {page.heading}"
+    assert "script" not in page.seen, "the title became a script"
+    assert len(page.pictures) == 2 and page.seen.count("svg") >= 2, "two pictures and two plots are expected"
+    for picture in page.pictures:
+        assert picture.startswith(b"\x89PNG\r\n\x1a\n") and picture.rstrip().endswith(b"IEND\xaeB`\x82"), "no whole PNG"
+    assert page.points >= 2 * (2 + 4), f"{page.points} points plotted"
+    shown = re.sub("base64,[^\"]*", "", text.split("<h2>Scene</h2>")[0])
+    assert re.search(r"\b-?(nan|inf)\b", shown) is None, "a number that is none is shown"
+    print(f"{len(text)} characters, {page.points} points")
+
+
+main()
