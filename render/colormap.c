@@ -9,7 +9,7 @@ enum { PIECES = 512 };
 /* Lightness at the ends of the map, and the Bezier curve that it follows in the plane of a* and b*: as colourful as
  * sRGB allows at each lightness, with some room left, and hues that the common forms of colour blindness tell apart. */
 static const double dark = 20, light = 91;
-static const double control[5][2] = {{34, -36}, {-4, -52}, {-46, -4}, {-60, 62}, {-6, 78}};
+static const double control[5][2] = {{34, -36}, {-4, -52}, {-46, -4}, {-60, 62}, {-10, 77}};
 
 static void curve(double t, double ab[2])
 {

@@ -11,9 +11,10 @@
 
 enum { TILE = 16 }; /* pixels along a side */
 
-/* Calibrated by tests/image/calibration.c on a cube of 24 x 24 quads a face, 800 x 640 pixels, 12 bands. What must pass
- * (round-off, a shift by a pixel, another rasteriser) has shares of 0; of what must fail, a colour range wrong by 1 %
- * is the least in the worst tile (0.156) and a missing quad the least over all (3.3e-4, and 0.24 in its tile). */
+/* Calibrated by tests/image/calibration.c and gallery.c on a cube of 24 x 24 quads a face, 800 x 640 pixels, 12 bands.
+ * What must pass: identical pictures, round-off and a shift by a pixel give 0, another rasteriser a fraction of 2e-5
+ * and one pixel in a tile (0.004). What must fail: a colour range wrong by 1 % gives the least worst tile, 0.17, and a
+ * missing quad the least fraction, 3.3e-4, with 0.24 in its tile. Each limit is far from both. */
 static const float visible = 4; /* a colour difference that counts; just noticeable is 2.3, neighbouring bands 16 */
 static const double fraction_limit = 5e-4, tile_limit = 0.02;
 

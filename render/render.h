@@ -36,6 +36,12 @@ struct render_view {
     const char *unit;  /* "Pa" */
 };
 
+/* Draws by OSMesa, one picture at a time in a process. Values beyond the range take its outermost bands and the colour
+ * bar then ends in points; values that are not finite are magenta, with a key under the bar. A flat body is not shaded;
+ * a body of lines is a ribbon. Texts are UTF-8; "^" before figures raises them; the unit "-" is not written. Refuses
+ * vertex numbers out of range, positions that are not finite, a picture side outside 160..4096, bands outside 1..64, an
+ * empty colour range, a direction or up of no use, a frame without size. The same input gives the same bytes, for any
+ * number of rasteriser threads. */
 bool render_draw(const struct render_surface *surface, const struct render_view *view, struct render_image **image,
                  char why[RENDER_WHY]);
 void render_image_free(struct render_image *image);
