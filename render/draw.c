@@ -8,7 +8,6 @@
 #include "render/vector.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The light comes from over the viewer's left shoulder, so that the faces of a cube differ. */
