@@ -13,8 +13,16 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { SOLVER_NAME = 64, SOLVER_TEXT = 512, SOLVER_LEVELS = 16, SOLVER_PROBES = 16, SOLVER_GATES = 32,
-       SOLVER_NAMED = 16, SOLVER_ROWS = 16, SOLVER_FACES = 6 };
+enum {
+    SOLVER_NAME = 64,
+    SOLVER_TEXT = 512,
+    SOLVER_LEVELS = 16,
+    SOLVER_PROBES = 16,
+    SOLVER_GATES = 32,
+    SOLVER_NAMED = 16,
+    SOLVER_ROWS = 16,
+    SOLVER_FACES = 6
+};
 
 /* Formulas a scene may hold. All are called as f(X, Y, Z, t) in metres and seconds (missing dimensions are 0) and
  * return dim numbers (F: dim*dim, row by row). */
@@ -70,52 +78,53 @@ struct solver_probe {
 
 /* The fixed view of the scene's picture. */
 struct solver_view {
-    char field[SOLVER_NAME]; /* a scalar of the record: "pressure", "von_mises", "displacement", "displacement_x", ... */
-    double range[2];         /* colour range, in the field's unit */
-    int bands;               /* filled contour bands */
-    double direction[3];     /* from the body towards the eye */
+    char
+        field[SOLVER_NAME]; /* a scalar of the record: "pressure", "von_mises", "displacement", "displacement_x", ... */
+    double range[2];        /* colour range, in the field's unit */
+    int bands;              /* filled contour bands */
+    double direction[3];    /* from the body towards the eye */
     double up[3];
-    double magnify;          /* displacement shown = magnify * displacement */
-    int size[2];             /* pixels */
+    double magnify; /* displacement shown = magnify * displacement */
+    int size[2];    /* pixels */
 };
 
 struct solver_scene {
     char path[4096];
-    char name[SOLVER_NAME];   /* file name without folder and .lua */
+    char name[SOLVER_NAME]; /* file name without folder and .lua */
     char title[SOLVER_TEXT];
     char source[SOLVER_TEXT]; /* paper and section, may be empty */
     char *text;               /* the whole file */
     char *overrides;          /* "KEY=value\n" lines as given, "" if none */
 
-    int dim;                         /* 1, 2, 3 */
-    double lower[3], upper[3];       /* box domain [m] */
-    double reference_length;         /* [m]; spacing = reference_length / n */
-    int n;                           /* spacings along the reference length */
-    int levels[SOLVER_LEVELS];       /* values of n for a study, increasing */
+    int dim;                   /* 1, 2, 3 */
+    double lower[3], upper[3]; /* box domain [m] */
+    double reference_length;   /* [m]; spacing = reference_length / n */
+    int n;                     /* spacings along the reference length */
+    int levels[SOLVER_LEVELS]; /* values of n for a study, increasing */
     size_t level_count;
-    double perturb;                  /* random shift of interior particles, as a fraction of the spacing, [0, 0.3] */
+    double perturb; /* random shift of interior particles, as a fraction of the spacing, [0, 0.3] */
     uint64_t seed;
 
     char material_model[SOLVER_NAME];
-    double E, nu, rho;               /* [Pa], [-], [kg/m^3] */
+    double E, nu, rho; /* [Pa], [-], [kg/m^3] */
 
-    char scheme[SOLVER_NAME];        /* "upwind" */
+    char scheme[SOLVER_NAME]; /* "upwind" */
     enum solver_evolved evolved;
-    char stencil[SOLVER_NAME];       /* "sph", "closed", "sbp2", "sbp4" */
-    double support;                  /* support radius / spacing */
-    char reconstruction[SOLVER_NAME];/* "stencil", "least-squares", "none" */
+    char stencil[SOLVER_NAME];        /* "sph", "closed", "sbp2", "sbp4" */
+    double support;                   /* support radius / spacing */
+    char reconstruction[SOLVER_NAME]; /* "stencil", "least-squares", "none" */
     char integrator[SOLVER_NAME];
     double cfl;
-    double t_end;                    /* [s] */
-    char precision[SOLVER_NAME];     /* "double" */
-    int threads;                     /* 0: all that the machine offers */
+    double t_end;                /* [s] */
+    char precision[SOLVER_NAME]; /* "double" */
+    int threads;                 /* 0: all that the machine offers */
 
     enum solver_face_kind face[SOLVER_FACES]; /* X0, X1, Y0, Y1, Z0, Z1 */
     struct solver_probe probe[SOLVER_PROBES];
     size_t probe_count;
 
-    char oracle[SOLVER_NAME];        /* "" if the scene answers to none */
-    size_t oracle_told_count;        /* oracle.KEY = number: told to the oracle in place of the scene's own value */
+    char oracle[SOLVER_NAME]; /* "" if the scene answers to none */
+    size_t oracle_told_count; /* oracle.KEY = number: told to the oracle in place of the scene's own value */
     struct solver_named oracle_told[SOLVER_NAMED];
     char published_source[SOLVER_TEXT];
     size_t published_count;
@@ -125,7 +134,7 @@ struct solver_scene {
     bool has_view;
     struct solver_view view;
 
-    struct solver_scene_lua *lua;    /* the interpreter that holds the formulas; private */
+    struct solver_scene_lua *lua; /* the interpreter that holds the formulas; private */
 };
 
 /* Reads a scene file and applies `overrides` ("key=value", value a number, true, false or a bare word; a list is

@@ -133,7 +133,8 @@ bool scene_key_admits(const char *path)
     if (!strncmp(path, "oracle.", 7) || !strncmp(path, "parameters.", 11))
         return path[length - 1] != '.' && !strstr(path, "..");
     char face[SOLVER_NAME];
-    if (strncmp(path, "faces.", 6) != 0 || length < 6 || length >= sizeof face || strcmp(path + length - 5, ".kind"))
+    if (strncmp(path, "faces.", 6) != 0 || length < 6 || length >= sizeof face ||
+        strcmp(path + length - 5, ".kind") != 0)
         return false;
     snprintf(face, sizeof face, "%.*s", (int)(length - 5), path);
     return scene_key_find(face) >= 0;

@@ -171,8 +171,8 @@ static void read_told(lua_State *L, struct solver_scene *scene, const char *pref
             continue;
         snprintf(name, sizeof name, "%s%.60s", prefix, lua_tostring(L, -2));
         if (lua_istable(L, -1) && !prefix[0]) {
-            strcat(name, ".");
-            read_told(L, scene, name);
+            snprintf(path, sizeof path, "%.60s.", name);
+            read_told(L, scene, path);
             continue;
         }
         resolve_told(scene, name, path, sizeof path);

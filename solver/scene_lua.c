@@ -86,8 +86,8 @@ void scene_refuse(lua_State *L, const char *format, ...)
     solver_fail(&lua->error, SOLVER_BAD_INPUT, "%.400s%s: %s%s%s", lua->scene->path, line, lua->doing,
                 lua->doing[0] ? ": " : "", text);
     lua_pushnil(L);
-    lua_error(L);
-    abort(); /* lua_error does not return */
+    for (;;)
+        lua_error(L); /* does not return, which its declaration does not say */
 }
 
 void scene_refuse_value(lua_State *L, const char *key, const char *expected, int index)
@@ -214,13 +214,13 @@ struct question {
     enum solver_formula formula;
     const double *X;
     double t;
-    double *out;
     size_t count;
+    double value[9]; /* the answer; no formula has more */
 };
 
 static int call_formula(lua_State *L)
 {
-    const struct question *ask = lua_touserdata(L, 1);
+    struct question *ask = lua_touserdata(L, 1);
     struct solver_scene_lua *lua = scene_lua_of(L);
     set_budget(lua, CALL_BUDGET);
     int base = lua_gettop(L);
@@ -235,7 +235,7 @@ static int call_formula(lua_State *L)
     for (size_t i = 0; i < got; i++) {
         char which[32];
         snprintf(which, sizeof which, "value %zu", i + 1);
-        ask->out[i] = scene_read_number(L, which, base + 1 + (int)i, -DBL_MAX, DBL_MAX, "a number");
+        ask->value[i] = scene_read_number(L, which, base + 1 + (int)i, -DBL_MAX, DBL_MAX, "a number");
     }
     luaL_checkstack(L, 8, "formula");
     scene_globals_check(L);
@@ -258,11 +258,16 @@ bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula for
     struct solver_scene_lua *lua = scene->lua;
     char name[SOLVER_NAME];
     name_formula(formula, name, sizeof name);
+    struct question ask = {formula, X, t, count, {0}};
+    if (count > sizeof ask.value / sizeof *ask.value)
+        return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: %s: no formula returns %zu numbers", scene->path, name,
+                           count);
     if (!solver_scene_has(scene, formula))
         return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: %s: the scene gives no such formula", scene->path, name);
     snprintf(lua->doing, sizeof lua->doing, "%s at X = (%.6g, %.6g, %.6g), t = %.6g", name, X[0], X[1], X[2], t);
-    struct question ask = {formula, X, t, out, count};
     bool good = scene_lua_protect(lua, call_formula, &ask, error);
     lua->doing[0] = '\0';
+    if (good)
+        memcpy(out, ask.value, count * sizeof *out);
     return good;
 }

@@ -292,7 +292,7 @@ static void mangled_scenes(void)
     CU_ASSERT_PTR_NOT_NULL_FATAL(file);
     size_t size = fread(text, 1, sizeof text, file), refused = 0;
     CU_ASSERT_FATAL(size > 1000 && size < sizeof text);
-    fclose(file);
+    CU_ASSERT_EQUAL(fclose(file), 0);
     for (size_t i = 0; i < 2 * size; i++) {
         struct solver_scene *scene;
         struct solver_error error = {0};
