@@ -23,9 +23,9 @@
  * scene whose strain is so small or whose run is so long that round-off alone would pass CAP is no good golden scene:
  * it would fail from one machine to the next, and never be blind.
  *
- * Measured on the swinging cube at n = 8, with fused multiply-adds against none: linear elasticity differs by 0.02 to
- * 0.16 of these bounds. The neo-Hookean model, whose stress is a difference of terms as large as the moduli, differs by
- * up to 4 times these bounds at the same strain of 1e-3: its records hold for one kind of machine only. */
+ * Measured on the swinging cube at n = 8, with fused multiply-adds against none: linear elasticity differs by at
+ * most 0.16 of these bounds. The neo-Hookean model, whose stress is a difference of terms as large as the moduli,
+ * differs by up to 4 times these bounds at the same strain of 1e-3: its records hold for one kind of machine only. */
 #include "golden/tolerance.h"
 
 #include <float.h>
