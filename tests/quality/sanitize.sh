@@ -6,7 +6,7 @@ source=$1 build=$2
 "$(dirname -- "$0")/build.sh" "$source" "$build" sanitize
 for program in "$build"/tests/test_*; do
   # A build that lost its flags would pass whatever the code does.
-  nm -D "$program" | grep -q __asan_init || { echo "$program is not built with sanitizers"; exit 1; }
+  nm -D "$program" | grep __asan_init >/dev/null || { echo "$program is not built with sanitizers"; exit 1; }
 done
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
 exec ctest --test-dir "$build" -R '^unit-' --output-on-failure --no-tests=error --parallel "$(nproc)"
