@@ -1,0 +1,185 @@
+/* One conformance suite for every material in 1, 2 and 3 dimensions: wave speeds, and the loops over particles. */
+#include "tests/unit/materials.h"
+
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_sort_double.h>
+#include <stdlib.h>
+
+/* Eigenvalues of A_iIjJ N_I N_J, increasing. */
+static void acoustic_eigenvalues(const struct sample *sample, const double *F, const double *N, double *values)
+{
+    size_t dim = sample->dim;
+    double A[81];
+    double Q[9] = {0};
+    sample->material->tangent(&sample->constants, F, A);
+    for (size_t m = 0; m < dim * dim * dim * dim; m++) {
+        size_t i = m / (dim * dim * dim);
+        size_t j = m / dim % dim;
+        Q[i * dim + j] += A[m] * N[m / (dim * dim) % dim] * N[m % dim];
+    }
+    gsl_matrix_view matrix = gsl_matrix_view_array(Q, dim, dim);
+    gsl_vector_view vector = gsl_vector_view_array(values, dim);
+    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(dim);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(work);
+    CU_ASSERT_EQUAL(gsl_eigen_symm(&matrix.matrix, &vector.vector, work), 0);
+    gsl_eigen_symm_free(work);
+    gsl_sort(values, 1, dim);
+}
+
+static void wave_speeds(const struct sample *sample)
+{
+    size_t dim = sample->dim;
+    for (int i = 0; i < SAMPLES; i++) {
+        double F[9];
+        double N[3];
+        double speeds[3];
+        double values[3];
+        if (i > 0) {
+            random_deformation(dim, F);
+        } else {
+            unit_tensor(dim, F);
+        }
+        random_direction(dim, N);
+        acoustic_eigenvalues(sample, F, N, values);
+        sample->material->wave_speeds(&sample->constants, F, N, speeds);
+        for (size_t k = 0; k < dim; k++) {
+            double square = sample->constants.rho * speeds[k] * speeds[k];
+            expect(sample, "wave speeds against the acoustic tensor", fabs(square - values[k]),
+                   1e-13 * (sample->modulus + values[dim - 1]));
+            double at_rest = k + 1 == dim ? sample->constants.cp : sample->constants.cs;
+            if (i == 0) {
+                expect(sample, "wave speeds at rest", fabs(speeds[k] - at_rest), 1e-12 * sample->constants.cp);
+            }
+        }
+    }
+}
+
+/* A padded tensor field (solver/dim.h) from row-major tensors and back. */
+static size_t lanes_of(size_t dim)
+{
+    return dim == 3 ? 4 : dim;
+}
+
+static double *padded_field(size_t dim, size_t count)
+{
+    double *field = aligned_alloc(64, (count * dim * lanes_of(dim) * sizeof(double) + 63) / 64 * 64);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(field);
+    memset(field, 0, count * dim * lanes_of(dim) * sizeof(double));
+    return field;
+}
+
+static double *entry(size_t dim, double *field, size_t a, size_t i, size_t I)
+{
+    return field + (a * dim + I) * lanes_of(dim) + i;
+}
+
+static void pad(size_t dim, const double *rows, size_t a, double *field)
+{
+    for (size_t k = 0; k < dim * dim; k++) {
+        *entry(dim, field, a, k / dim, k % dim) = rows[k];
+    }
+}
+
+static void fastest_bounds_speeds(const struct sample *sample)
+{
+    size_t dim = sample->dim;
+    double *field = padded_field(dim, SAMPLES);
+    double F[9];
+    unit_tensor(dim, F);
+    for (size_t a = 0; a < SAMPLES; a++) {
+        pad(dim, F, a, field);
+    }
+    double rest = sample->material->fastest(&sample->constants, 0, SAMPLES, field);
+    expect(sample, "bound of the speeds at rest", fabs(rest / sample->constants.cp - 1.0), 1e-14);
+    double overall = 0.0;
+    for (size_t a = 0; a < SAMPLES; a++) {
+        random_deformation(dim, F);
+        pad(dim, F, a, field);
+        double bound = sample->material->fastest(&sample->constants, a, a + 1, field);
+        overall = fmax(overall, bound);
+        for (int i = 0; i < 50; i++) {
+            double N[3];
+            double speeds[3];
+            random_direction(dim, N);
+            sample->material->wave_speeds(&sample->constants, F, N, speeds);
+            expect(sample, "fastest wave over its bound", speeds[dim - 1] / bound, 1.0 + 1e-14);
+        }
+        expect(sample, "bound over ten times the p-wave of an eightfold stretch", bound,
+               80.0 * (sample->constants.cp + sample->constants.cs));
+    }
+    double together = sample->material->fastest(&sample->constants, 0, SAMPLES, field);
+    expect(sample, "bound over a range against that of its particles", fabs(together - overall), 0.0);
+    free(field);
+}
+
+/* The hot loop against the pointwise stress, inside its range and nowhere else. */
+static void stress_range(const struct sample *sample)
+{
+    enum { COUNT = 21, BEGIN = 3, END = 18 };
+    size_t dim = sample->dim;
+    double *field[4];
+    double J[COUNT];
+    double rows[COUNT][9];
+    double own[COUNT][9];
+    double other[COUNT][9];
+    for (int i = 0; i < 4; i++) {
+        field[i] = padded_field(dim, COUNT);
+    }
+    for (size_t a = 0; a < COUNT; a++) {
+        double H[9];
+        random_deformation(dim, rows[a]);
+        stress(sample, rows[a], own[a]);
+        measures(sample, rows[a], H, &J[a]);
+        for (size_t k = 0; k < dim * dim; k++) {
+            H[k] *= uniform(0.9, 1.1);
+        }
+        J[a] *= uniform(0.9, 1.1);
+        sample->material->stress(&sample->constants, rows[a], H, J[a], other[a]);
+        pad(dim, rows[a], a, field[0]);
+        pad(dim, H, a, field[1]);
+    }
+    sample->material->stress_range(&sample->constants, BEGIN, END, field[0], field[1], J, field[2]);
+    sample->material->stress_range(&sample->constants, BEGIN, END, field[0], NULL, NULL, field[3]);
+    for (size_t a = 0; a < COUNT; a++) {
+        bool inside = a >= BEGIN && a < END;
+        for (size_t I = 0; I < dim; I++) {
+            for (size_t i = 0; i < lanes_of(dim); i++) {
+                double scale = 1e-14 * (sample->modulus + largest_entry(dim * dim, own[a]));
+                bool lane = inside && i < dim;
+                expect(sample, "stress of a range, H and J given",
+                       fabs(*entry(dim, field[2], a, i, I) - (lane ? other[a][i * dim + I] : 0.0)),
+                       lane ? 4e-16 * (sample->modulus + largest_entry(dim * dim, other[a])) : 0.0);
+                expect(sample, "stress of a range, H and J of F",
+                       fabs(*entry(dim, field[3], a, i, I) - (lane ? own[a][i * dim + I] : 0.0)), lane ? scale : 0.0);
+            }
+        }
+    }
+    for (int i = 0; i < 4; i++) {
+        free(field[i]);
+    }
+}
+
+static void test_speeds(void)
+{
+    each(wave_speeds);
+}
+
+static void test_fastest(void)
+{
+    each(fastest_bounds_speeds);
+}
+
+static void test_range(void)
+{
+    each(stress_range);
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"wave speeds are those of the acoustic tensor", test_speeds},
+        {"the fastest speed is bounded, exactly at rest", test_fastest},
+        {"the hot loop is the pointwise stress", test_range},
+    };
+    return unit_main("material loops", tests, sizeof tests / sizeof *tests);
+}
