@@ -35,6 +35,9 @@ struct solver_material {
     /* The hot loop: P of particles begin to end - 1, padded columns (dim.h). H, J NULL: those of F. */
     void (*stress_range)(const struct solver_material_constants *material, size_t begin, size_t end, const double *F,
                          const double *H, const double *J, double *P);
+    /* Volumetric stress U'(J) [Pa] of particles begin to end - 1. */
+    void (*volumetric_range)(const struct solver_material_constants *material, size_t begin, size_t end,
+                             const double *J, double *pressure);
     /* An upper bound of the wave speeds [m/s] in all directions over particles begin to end - 1; exact at rest. */
     double (*fastest)(const struct solver_material_constants *material, size_t begin, size_t end, const double *F);
 };

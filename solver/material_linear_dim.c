@@ -91,6 +91,14 @@ static void stress_range(const struct solver_material_constants *material, size_
     }
 }
 
+static void volumetric_range(const struct solver_material_constants *material, size_t begin, size_t end,
+                             const double *J, double *pressure)
+{
+    for (size_t a = begin; a < end; a++) {
+        pressure[a] = material->kappa * (J[a] - 1.0);
+    }
+}
+
 static double fastest(const struct solver_material_constants *material, size_t begin, size_t end, const double *F)
 {
     (void)begin;
@@ -107,5 +115,6 @@ const struct solver_material DIM_NAME(solver_linear_elastic) = {
     .tangent = tangent,
     .wave_speeds = wave_speeds,
     .stress_range = stress_range,
+    .volumetric_range = volumetric_range,
     .fastest = fastest,
 };

@@ -110,6 +110,9 @@ static void wave_speeds(const struct solver_material_constants *material, const 
     double low;
     double high = largest(shear, -2.0 / 3.0 * shear / J, material->kappa + 5.0 / 9.0 * shear * FF / (J * J), J,
                           dot(f, f), dot(h, h), &low);
+    if (DIM == 1) { /* one of the two roots is not the line's: it is shear, across f and h */
+        high += low - shear;
+    }
     speeds[DIM - 1] = sqrt(high / material->rho);
     if (DIM > 1) {
         speeds[0] = sqrt(low / material->rho);
@@ -132,6 +135,14 @@ static void stress_range(const struct solver_material_constants *material, size_
         struct tensor cof = H != NULL ? load_tensor(H + a * DIM * LANES) : cofactor(at);
         double jacobian = J != NULL ? J[a] : determinant(at);
         store_tensor(P + a * DIM * LANES, stress_of(material, at, cof, jacobian));
+    }
+}
+
+static void volumetric_range(const struct solver_material_constants *material, size_t begin, size_t end,
+                             const double *J, double *pressure)
+{
+    for (size_t a = begin; a < end; a++) {
+        pressure[a] = material->kappa * (J[a] - 1.0);
     }
 }
 
@@ -173,5 +184,6 @@ const struct solver_material DIM_NAME(solver_neo_hookean) = {
     .tangent = tangent,
     .wave_speeds = wave_speeds,
     .stress_range = stress_range,
+    .volumetric_range = volumetric_range,
     .fastest = fastest,
 };

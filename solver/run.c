@@ -45,6 +45,7 @@ static void choose_terms(struct solver_run *run)
     work->evolves_J = scene->evolved != SOLVER_PF;
     work->evolves_H = scene->evolved == SOLVER_PFHJ;
     work->frozen = work->material->linear;
+    work->whole_jump = strcmp(scene->volume_flux, "stress") == 0;
     work->reconstruct = strcmp(scene->reconstruction, "none") != 0;
 }
 

@@ -113,6 +113,7 @@ struct solver_scene {
     char stencil[SOLVER_NAME];        /* "sph", "closed", "sbp2", "sbp4" */
     double support;                   /* support radius / spacing */
     char reconstruction[SOLVER_NAME]; /* "stencil", "least-squares", "none" */
+    char volume_flux[SOLVER_NAME];    /* dissipation of J by the jump of "pressure" or of the whole "stress" */
     char integrator[SOLVER_NAME];
     double cfl;
     double t_end;                /* [s] */

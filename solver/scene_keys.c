@@ -44,9 +44,11 @@ X("evolved", INDEX, AT(evolved), 0, 0, 0, "pF pFJ pFHJ", "pFHJ", "one of pF, pFJ
   "geometric measures with an equation of their own")                                                                  \
 X("stencil", WORD, AT(stencil), 0, 0, 0, "sph closed sbp2 sbp4", "sbp4", "one of sph, closed, sbp2, sbp4",             \
   "how discrete gradients are built")                                                                                  \
-X("support", NUMBER, AT(support), 1, 4, 0, "", "2.1", "number in [1, 4]", "support radius / spacing")                  \
+X("support", NUMBER, AT(support), 1, 4, 0, "", "2", "number in [1, 4]", "support radius / spacing")                    \
 X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares none", "stencil",                        \
   "one of stencil, least-squares, none", "slopes of the linear reconstruction at the Riemann states")                  \
+X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \
+  "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
 X("integrator", WORD, AT(integrator), 0, 0, 0, "tvd-rk2 ssp-rk3 rk4 | euler", "rk4", "one of tvd-rk2, ssp-rk3, rk4",   \
   "time integrator")                                                                                                   \
 X("cfl", NUMBER, AT(cfl), ABOVE_ZERO, 10, 0, "", "0.8", "number in (0, 10]", "Courant-Friedrichs-Lewy number")         \

@@ -24,7 +24,7 @@ bool solver_state_create(struct solver_state *state, size_t count, int dim, cons
     size_t lanes = d == 3 ? 4 : d;
     size_t tensor = d * lanes;
     struct binding evolved[5];
-    struct binding derived[4];
+    struct binding derived[5];
     size_t evolved_count = 0;
     size_t derived_count = 0;
     *state = (struct solver_state){.count = count};
@@ -42,7 +42,13 @@ bool solver_state_create(struct solver_state *state, size_t count, int dim, cons
     if (work->evolves_J && !work->evolves_H && !work->frozen) {
         derived[derived_count++] = (struct binding){&work->cofactor, NULL, declare(state, "cof F", tensor, false)};
     }
-    if (work->evolves_J && work->reconstruct) {
+    if (work->evolves_J && !work->whole_jump) {
+        derived[derived_count++] = (struct binding){&work->pressure, NULL, declare(state, "U'(J)", 1, false)};
+        if (work->reconstruct) {
+            derived[derived_count++] =
+                (struct binding){&work->pressure_gradient, NULL, declare(state, "grad U'(J)", lanes, false)};
+        }
+    } else if (work->evolves_J && work->reconstruct) {
         derived[derived_count++] =
             (struct binding){&work->P_gradient, NULL, declare(state, "grad P", d * tensor, false)};
     }

@@ -25,6 +25,7 @@ static const struct solver_stencil_builder builders[] = {
      .antisymmetric = true,
      .closed = true,
      .lattice_only = true,
+     .faces = true,
      .degree = 2,
      .boundary = 1,
      .build = solver_stencil_sbp2},
@@ -33,6 +34,7 @@ static const struct solver_stencil_builder builders[] = {
      .antisymmetric = true,
      .closed = true,
      .lattice_only = true,
+     .faces = true,
      .degree = 4,
      .boundary = 2,
      .build = solver_stencil_sbp4},
@@ -77,12 +79,12 @@ bool solver_stencil_reserve(struct solver_stencil *stencil, const struct solver_
 
 /* Row sums, D_ab where it is not C_ab, and the face measure. NUMERICS: wide stencils have pairs with N . C < 0, which
  * would feed energy in; they take no part in the dissipation. */
-static bool finish(struct solver_stencil *stencil, const struct solver_cloud *cloud, bool antisymmetric,
-                   struct solver_error *error)
+static bool finish(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                   const struct solver_stencil_builder *builder, struct solver_error *error)
 {
     size_t dim = (size_t)stencil->dim;
-    if (!antisymmetric && !solver_alloc((void **)&stencil->transposed, stencil->pairs * dim, sizeof(double),
-                                        "transposed pair vectors", error)) {
+    if (!builder->antisymmetric && !solver_alloc((void **)&stencil->transposed, stencil->pairs * dim, sizeof(double),
+                                                 "transposed pair vectors", error)) {
         return false;
     }
 #pragma omp parallel for schedule(static)
@@ -98,11 +100,13 @@ static bool finish(struct solver_stencil *stencil, const struct solver_cloud *cl
                 along += 0.5 * (C[axis] - opposite[axis]) * d;
                 square += d * d;
                 stencil->row_sum[a * dim + axis] += C[axis];
-                if (!antisymmetric) {
+                if (!builder->antisymmetric) {
                     stencil->transposed[ab * dim + axis] = -opposite[axis];
                 }
             }
-            C[dim] = fmax(0.0, along) / sqrt(square);
+            if (!builder->faces) {
+                C[dim] = fmax(0.0, along) / sqrt(square);
+            }
         }
     }
     return true;
@@ -116,7 +120,7 @@ bool solver_stencil_create(const struct solver_stencil_builder *builder, const s
     if (!solver_alloc((void **)&stencil, 1, sizeof *stencil, "stencil", error)) {
         return false;
     }
-    if (!builder->build(cloud, support, stencil, error) || !finish(stencil, cloud, builder->antisymmetric, error)) {
+    if (!builder->build(cloud, support, stencil, error) || !finish(stencil, cloud, builder, error)) {
         solver_stencil_free(stencil);
         return false;
     }

@@ -16,15 +16,16 @@
 struct solver_stencil {
     int dim;
     size_t count, pairs;
-    double spacing;            /* [m] */
+    double spacing; /* [m] */
     struct solver_graph graph;
-    double *pair;              /* [pairs][dim + 1]: C_ab, then the face measure of the upwind dissipation
-                                  max(0, (C_ab - C_ba)/2 . N_ab); one record, so that a pair is one place in memory */
-    double *transposed;        /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
-    double *row_sum;           /* [count][dim] sum_b C_ab */
-    double *least_squares;     /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
-                                  (000_e9ec29e1bde7947d.txt eq. 37); NULL unless asked for */
-    double *V;                 /* [count] [m^dim] */
+    double *pair;          /* [pairs][dim + 1]: C_ab, then the face measure A_ab of the upwind dissipation,
+                                  max(0, (C_ab - C_ba)/2 . N_ab) unless the builder knows better; one record, so that a
+                                  pair is one place in memory */
+    double *transposed;    /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
+    double *row_sum;       /* [count][dim] sum_b C_ab */
+    double *least_squares; /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
+                              (000_e9ec29e1bde7947d.txt eq. 37); NULL unless asked for */
+    double *V;             /* [count] [m^dim] */
     size_t face_point_count;
     struct solver_face_point *face_point;
 };
@@ -32,6 +33,7 @@ struct solver_stencil {
 struct solver_stencil_builder {
     const char *name, *summary;
     bool antisymmetric, closed, lattice_only;
+    bool faces;   /* sets the face measures itself */
     int degree;   /* polynomials differentiated exactly away from the boundary */
     int boundary; /* the same at the boundary */
     bool (*build)(const struct solver_cloud *cloud, double support, struct solver_stencil *stencil,

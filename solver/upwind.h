@@ -24,15 +24,18 @@ struct solver_upwind {
     bool evolves_J;   /* {p,F,J} and {p,F,H,J} */
     bool evolves_H;   /* {p,F,H,J} */
     bool frozen;      /* linear kinematics: H = I in the equation of J, normals n = N */
+    bool whole_jump;  /* dissipation of J by the jump of the whole stress, as printed in eq. 27 */
     bool reconstruct; /* linear reconstruction (eq. 34); without it the dissipation is of first order */
 
     /* State; NULL where the scene does not ask for it. */
     double *p, *x, *F, *H, *J; /* evolved */
     double *p_rate, *x_rate, *F_rate, *H_rate, *J_rate;
-    double *P;          /* stress */
-    double *cofactor;   /* H, or cof F where H is not evolved but the equation of J needs it */
-    double *p_gradient; /* tensor: least-squares gradient of p; NULL: rho F_rate serves */
-    double *P_gradient; /* [count][DIM (derivative)] tensors; only for the dissipation of J */
+    double *P;                 /* stress */
+    double *cofactor;          /* H, or cof F where H is not evolved but the equation of J needs it */
+    double *p_gradient;        /* tensor: least-squares gradient of p; NULL: rho F_rate serves */
+    double *pressure;          /* [count] U'(J); for the dissipation of J by its jump */
+    double *pressure_gradient; /* vector */
+    double *P_gradient;        /* [count][DIM (derivative)] tensors; for the dissipation of J by the jump of P */
 };
 
 struct solver_upwind_loops {

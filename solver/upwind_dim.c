@@ -45,6 +45,19 @@ static inline void stress_gradient(const struct solver_upwind *work, size_t a, c
     }
 }
 
+static inline vec scalar_gradient(const struct solver_upwind *work, size_t a, const double *field,
+                                  const double *weights, size_t stride)
+{
+    vec G = {0};
+    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+        double difference = field[work->neighbour[ab]] - field[a];
+        for (int I = 0; I < DIM; I++) {
+            G[I] += difference * weights[ab * stride + (size_t)I];
+        }
+    }
+    return G;
+}
+
 static void gradients(const struct solver_upwind *work, size_t begin, size_t end)
 {
     double per_rho = 1.0 / work->rho;
@@ -58,10 +71,15 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
         if (work->p_gradient != NULL) {
             store_tensor(work->p_gradient + a * TENSOR, vector_gradient(work, a, work->p, work->least_squares, DIM));
         }
-        if (work->P_gradient != NULL && work->least_squares != NULL) {
-            stress_gradient(work, a, work->least_squares, DIM, 1.0);
-        } else if (work->P_gradient != NULL) {
-            stress_gradient(work, a, work->pair, PAIR, half_per_V);
+        const double *weights = work->least_squares != NULL ? work->least_squares : work->pair;
+        size_t stride = work->least_squares != NULL ? DIM : PAIR;
+        double scale = work->least_squares != NULL ? 1.0 : half_per_V;
+        if (work->pressure_gradient != NULL) {
+            store(work->pressure_gradient + a * LANES,
+                  scale * scalar_gradient(work, a, work->pressure, weights, stride));
+        }
+        if (work->P_gradient != NULL) {
+            stress_gradient(work, a, weights, stride, scale);
         }
     }
 }
@@ -81,11 +99,8 @@ static inline vec momentum_flux(const struct solver_upwind *work, vec jump, vec 
     return face * (work->cs * jump + ((work->cp - work->cs) * normal) * along);
 }
 
-/* Upwind flux of J (eq. 27, 28, 30, 33): n . (P+ - P-) N times n . H^Ave N times the face measure. Eq. 33 as printed
- * has the sign that would feed energy in; this is that of eq. 30. The measure A N stands for C_ab, as in the flux of
- * p: wide stencils have pairs with N . C < 0. */
-static inline double volume_flux(const struct solver_upwind *work, size_t a, size_t b, vec distance, vec along,
-                                 double face, bool reconstruct)
+/* Reconstructed jump of the stress times the pair's distance, (P+ - P-) d (eq. 27, 34). */
+static inline vec traction_jump(const struct solver_upwind *work, size_t a, size_t b, vec distance, bool reconstruct)
 {
     vec traction = {0};
     for (int I = 0; I < DIM; I++) {
@@ -99,16 +114,39 @@ static inline double volume_flux(const struct solver_upwind *work, size_t a, siz
         }
         traction += jump * distance[I];
     }
-    double per_square = face / dot(distance, distance);
-    if (work->frozen) {
-        return dot(along, traction) / dot(along, along) * dot(along, distance) * per_square;
+    return traction;
+}
+
+/* Reconstructed jump of the volumetric stress U'(J). */
+static inline double pressure_jump(const struct solver_upwind *work, size_t a, size_t b, vec distance, bool reconstruct)
+{
+    double jump = work->pressure[b] - work->pressure[a];
+    if (reconstruct) {
+        vec slope = load(work->pressure_gradient + a * LANES) + load(work->pressure_gradient + b * LANES);
+        jump -= 0.5 * dot(slope, distance);
     }
-    vec area = {0};
-    for (int I = 0; I < DIM; I++) {
-        area += (load(work->cofactor + a * TENSOR + I * LANES) + load(work->cofactor + b * TENSOR + I * LANES)) *
-                (0.5 * distance[I]);
+    return jump;
+}
+
+/* Upwind flux of J (eq. 27, 28, 30, 33), times 2 c_p rho: A (n . (P+ - P-) N) (n . H^Ave N). Eq. 33 as printed has the
+ * sign that would feed energy in; this is that of eq. 30. A N stands for C_ab, as in the flux of p. By default only the
+ * volumetric part U'(J) H of the stress jumps: J is conjugate to it alone, so that without reconstruction the flux
+ * cannot feed energy in, and its gradient is a vector instead of a third-order tensor. */
+static inline double volume_flux(const struct solver_upwind *work, size_t a, size_t b, vec distance, vec along,
+                                 double face, bool reconstruct)
+{
+    vec area = distance;
+    if (!work->frozen) {
+        area = (vec){0};
+        for (int I = 0; I < DIM; I++) {
+            area += (load(work->cofactor + a * TENSOR + I * LANES) + load(work->cofactor + b * TENSOR + I * LANES)) *
+                    (0.5 * distance[I]);
+        }
     }
-    return dot(along, traction) / dot(along, along) * dot(along, area) * per_square;
+    double normal = dot(along, area);
+    double traction = work->whole_jump ? dot(along, traction_jump(work, a, b, distance, reconstruct))
+                                       : normal * pressure_jump(work, a, b, distance, reconstruct);
+    return face * traction * normal / (dot(along, along) * dot(distance, distance));
 }
 
 /* The arguments after `a` are constants where this is called, so that each combination is a loop of its own. */
@@ -191,6 +229,9 @@ static void stresses(const struct solver_upwind *work, size_t begin, size_t end)
         for (size_t a = begin; a < end; a++) {
             store_tensor(work->cofactor + a * TENSOR, cofactor(load_tensor(work->F + a * TENSOR)));
         }
+    }
+    if (work->pressure != NULL) {
+        work->material->volumetric_range(&work->constants, begin, end, work->J, work->pressure);
     }
     work->material->stress_range(&work->constants, begin, end, work->F, work->cofactor, work->J, work->P);
 }

@@ -35,7 +35,7 @@ static void plain_scene_and_defaults(void)
     CU_ASSERT_STRING_EQUAL(scene->integrator, "rk4");
     CU_ASSERT_STRING_EQUAL(scene->reconstruction, "stencil");
     CU_ASSERT_STRING_EQUAL(scene->precision, "double");
-    CU_ASSERT_EQUAL(scene->support, 2.1);
+    CU_ASSERT_EQUAL(scene->support, 2.0);
     CU_ASSERT_EQUAL(scene->cfl, 0.8);
     CU_ASSERT_EQUAL(scene->perturb, 0);
     CU_ASSERT_EQUAL(scene->seed, 1);
