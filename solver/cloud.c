@@ -44,6 +44,23 @@ static double uniform(uint64_t seed, uint64_t site_code, uint64_t axis)
     return 2.0 * (double)(z >> 11) * 0x1p-53 - 1.0;
 }
 
+static bool check_box(const struct solver_box *box, struct solver_error *error)
+{
+    if (box->dim < 1 || box->dim > 3) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "dim = %d; expected 1, 2 or 3", box->dim);
+    }
+    if (!(box->spacing > 0.0) || !isfinite(box->spacing)) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "domain: a spacing of %g m; expected a positive length",
+                           box->spacing);
+    }
+    if (!(box->perturb >= 0.0 && box->perturb < 0.5)) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "perturb = %g; expected a number from 0 to less than 0.5, so that neighbours cannot meet",
+                           box->perturb);
+    }
+    return true;
+}
+
 static bool count_points(const struct solver_box *box, uint32_t points[3], size_t *count, struct solver_error *error)
 {
     *count = 1;
@@ -53,7 +70,13 @@ static bool count_points(const struct solver_box *box, uint32_t points[3], size_
             continue;
         }
         double spacings = (box->upper[axis] - box->lower[axis]) / box->spacing;
-        if (!(spacings > 0.5) || spacings > 2e6 || fabs(spacings - round(spacings)) > 1e-6) {
+        if (spacings > 2e6) { /* 21 bits of a lattice index go into the Z-order code */
+            return solver_fail(error, SOLVER_BAD_INPUT,
+                               "n: edge %c of %g m is %g spacings of %g m, and at most 2000000 are possible; choose a "
+                               "smaller n",
+                               "XYZ"[axis], box -> upper[axis] - box -> lower[axis], spacings, box -> spacing);
+        }
+        if (!(spacings > 0.5) || fabs(spacings - round(spacings)) > 1e-6) {
             return solver_fail(error, SOLVER_BAD_INPUT,
                                "domain: edge %c of %g m is not a whole number of spacings of %g m (it is %g of them)",
                                "XYZ"[axis], box -> upper[axis] - box -> lower[axis], box -> spacing, spacings);
@@ -224,7 +247,7 @@ bool solver_cloud_box(const struct solver_box *box, struct solver_cloud **out, s
     struct solver_cloud *cloud = NULL;
     struct ordered_site *order = NULL;
     uint32_t *particle_at = NULL;
-    if (!solver_alloc((void **)&cloud, 1, sizeof *cloud, "cloud", error)) {
+    if (!check_box(box, error) || !solver_alloc((void **)&cloud, 1, sizeof *cloud, "cloud", error)) {
         return false;
     }
     cloud->dim = box->dim;
