@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cells at least as wide as the radius, so that neighbours lie in the 3^dim cells around. */
+/* Cells wider than the radius, by more than round-off in finding a particle's cell, so that neighbours lie in the 3^dim
+ * cells around; and than the spacing, so that there are no more of them than particles, whatever the radius. */
 struct cells {
     uint32_t size[3];
     double lower[3], width[3];
@@ -37,6 +38,7 @@ static bool sort_into_cells(const struct solver_cloud *cloud, double radius, str
 {
     size_t dim = (size_t)cloud->dim;
     size_t total = 1;
+    double narrowest = fmax(radius, cloud->spacing) * (1.0 + 1e-9);
     for (size_t axis = 0; axis < 3; axis++) {
         cells->size[axis] = 1;
         if (axis >= dim) {
@@ -49,8 +51,8 @@ static bool sort_into_cells(const struct solver_cloud *cloud, double radius, str
             high = fmax(high, cloud->X[a * dim + axis]);
         }
         cells->lower[axis] = low;
-        cells->size[axis] = (uint32_t)fmax(1.0, floor((high - low) / radius));
-        cells->width[axis] = fmax((high - low) / cells->size[axis], radius);
+        cells->size[axis] = (uint32_t)fmax(1.0, floor((high - low) / narrowest));
+        cells->width[axis] = fmax((high - low) / cells->size[axis], narrowest);
         total *= cells->size[axis];
     }
     if (!solver_alloc((void **)&cells->start, total + 1, sizeof *cells->start, "cell list", error) ||
@@ -122,6 +124,10 @@ bool solver_graph_build(const struct solver_cloud *cloud, double radius, struct 
 {
     struct cells cells = {.start = NULL};
     *graph = (struct solver_graph){.count = cloud->count};
+    if (!(radius > 0.0)) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "support: neighbours within %g m; expected a positive radius",
+                           radius);
+    }
     bool ok = sort_into_cells(cloud, radius, &cells, error) &&
               solver_alloc((void **)&graph->row, cloud->count + 1, sizeof *graph->row, "neighbour graph", error);
     if (ok) {

@@ -3,6 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+/* A column that elimination brings below this part of its size is a combination of those before it: what is left is
+ * round-off. */
+static const double singular = 1e-12;
+
 static void exchange(double *left, double *right)
 {
     double kept = *left;
@@ -12,12 +16,18 @@ static void exchange(double *left, double *right)
 
 bool solver_small_solve(size_t size, double A[4][4], double r[4])
 {
+    double largest[4] = {0};
+    for (size_t row = 0; row < size; row++) {
+        for (size_t column = 0; column < size; column++) {
+            largest[column] = fmax(largest[column], fabs(A[row][column]));
+        }
+    }
     for (size_t i = 0; i < size; i++) {
         size_t pivot = i;
         for (size_t row = i + 1; row < size; row++) {
             pivot = fabs(A[row][i]) > fabs(A[pivot][i]) ? row : pivot;
         }
-        if (A[pivot][i] == 0.0) {
+        if (!(fabs(A[pivot][i]) > singular * largest[i])) { /* a NaN too */
             return false;
         }
         for (size_t column = 0; column < size; column++) {
