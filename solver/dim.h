@@ -46,6 +46,21 @@ static inline double dot(vec a, vec b)
     return sum;
 }
 
+/* a . b and a . a at once: half the shuffles of two dots. Lanes beyond DIM are zero. */
+static inline void dot_and_square(vec a, vec b, double *ab, double *aa)
+{
+#if DIM == 3
+    vec first = a * b;
+    vec second = a * a;
+    vec pairs = __builtin_shufflevector(first, second, 0, 4, 2, 6) + __builtin_shufflevector(first, second, 1, 5, 3, 7);
+    *ab = pairs[0] + pairs[2];
+    *aa = pairs[1] + pairs[3];
+#else
+    *ab = dot(a, b);
+    *aa = dot(a, a);
+#endif
+}
+
 /* A tensor by columns. */
 struct tensor {
     vec column[DIM];

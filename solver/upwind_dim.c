@@ -95,8 +95,10 @@ struct sums {
  * n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) = along (along . jump) / |along|^2. */
 static inline vec momentum_flux(const struct solver_upwind *work, vec jump, vec along, double face)
 {
-    double normal = dot(along, jump) / dot(along, along);
-    return face * (work->cs * jump + ((work->cp - work->cs) * normal) * along);
+    double normal;
+    double square;
+    dot_and_square(along, jump, &normal, &square);
+    return face * (work->cs * jump + ((work->cp - work->cs) * normal / square) * along);
 }
 
 /* Reconstructed jump of the stress times the pair's distance, (P+ - P-) d (eq. 27, 34). */
@@ -149,34 +151,38 @@ static inline double volume_flux(const struct solver_upwind *work, size_t a, siz
     return face * traction * normal / (dot(along, along) * dot(distance, distance));
 }
 
-/* The arguments after `a` are constants where this is called, so that each combination is a loop of its own. */
-static inline struct sums sum_pairs(const struct solver_upwind *work, size_t a, const double *slope, double slope_scale,
-                                    bool reconstruct, bool transposed, bool volume)
+/* What the scene asks for, as constants where the sums are called, so that each combination is a loop of its own. */
+struct terms {
+    bool frozen, reconstruct, transposed, volume;
+};
+
+static inline __attribute__((always_inline)) struct sums sum_pairs(const struct solver_upwind *work, size_t a,
+                                                                   struct terms terms)
 {
     struct sums sums = {.volume = 0.0};
-    const double *position = work->frozen ? work->X : work->x;
+    const double *slope = work->p_gradient != NULL ? work->p_gradient : work->F_rate;
+    double half_slope = -0.5 * (work->p_gradient != NULL ? 1.0 : work->rho);
     vec X_a = load(work->X + a * LANES);
-    vec x_a = load(position + a * LANES);
+    vec x_a = load((terms.frozen ? work->X : work->x) + a * LANES);
     vec p_a = load(work->p + a * LANES);
     struct tensor slope_a = load_tensor(slope + a * TENSOR);
-    double half_slope = -0.5 * slope_scale;
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
         size_t b = work->neighbour[ab];
         const double *C = work->pair + ab * PAIR;
-        const double *D = transposed ? work->transposed + ab * DIM : C;
+        const double *D = terms.transposed ? work->transposed + ab * DIM : C;
         const double *P_b = work->P + b * TENSOR;
         vec distance = load(work->X + b * LANES) - X_a;
-        vec along = load(position + b * LANES) - x_a;
+        vec along = terms.frozen ? distance : load(work->x + b * LANES) - x_a;
         vec jump = load(work->p + b * LANES) - p_a;
         for (int I = 0; I < DIM; I++) {
             sums.force += load(P_b + I * LANES) * D[I];
-            if (reconstruct) {
+            if (terms.reconstruct) {
                 jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * (half_slope * distance[I]);
             }
         }
         sums.dissipation += momentum_flux(work, jump, along, C[DIM]);
-        if (volume) {
-            sums.volume += volume_flux(work, a, b, distance, along, C[DIM], reconstruct);
+        if (terms.volume) {
+            sums.volume += volume_flux(work, a, b, distance, along, C[DIM], terms.reconstruct);
         }
     }
     return sums;
@@ -200,26 +206,32 @@ static inline void finish(const struct solver_upwind *work, size_t a, struct sum
     }
 }
 
-#define EACH(reconstruct, transposed, volume)                                                                          \
-    for (size_t a = begin; a < end; a++) {                                                                             \
-        finish(work, a, sum_pairs(work, a, slope, scale, reconstruct, transposed, volume));                            \
+static inline __attribute__((always_inline)) void rates_with(const struct solver_upwind *work, size_t begin, size_t end,
+                                                             struct terms terms)
+{
+    for (size_t a = begin; a < end; a++) {
+        finish(work, a, sum_pairs(work, a, terms));
     }
+}
 
 static void rates(const struct solver_upwind *work, size_t begin, size_t end)
 {
-    const double *slope = work->p_gradient != NULL ? work->p_gradient : work->F_rate;
-    double scale = work->p_gradient != NULL ? 1.0 : work->rho;
-    bool transposed = work->transposed != NULL;
-    if (work->reconstruct && !transposed && !work->evolves_J) {
-        EACH(true, false, false)
-    } else if (work->reconstruct && !transposed) {
-        EACH(true, false, true)
-    } else if (work->reconstruct && !work->evolves_J) {
-        EACH(true, true, false)
-    } else if (work->reconstruct) {
-        EACH(true, true, true)
-    } else {
-        EACH(false, transposed, work->evolves_J)
+    bool plain = work->reconstruct && work->transposed == NULL;
+    bool volume = work->evolves_J;
+    if (plain && work->frozen && !volume) {
+        rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true});
+    } else if (plain && work->frozen) {
+        rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true, .volume = true});
+    } else if (plain && !volume) {
+        rates_with(work, begin, end, (struct terms){.reconstruct = true});
+    } else if (plain) {
+        rates_with(work, begin, end, (struct terms){.reconstruct = true, .volume = true});
+    } else { /* rare: not worth a loop each */
+        rates_with(work, begin, end,
+                   (struct terms){.frozen = work->frozen,
+                                  .reconstruct = work->reconstruct,
+                                  .transposed = work->transposed != NULL,
+                                  .volume = volume});
     }
 }
 
