@@ -1,0 +1,153 @@
+/* Runs that break down, or should not start: what they say, and what they leave. */
+#include "tests/unit/runs.h"
+
+static bool all_finite(size_t count, const double *values)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!isfinite(values[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/* The output is a state that the run could have gone on from. */
+static void check_output(struct sample *sample)
+{
+    struct solver_output output = output_of(sample);
+    size_t count = output.cloud->count;
+    size_t dim = (size_t)output.cloud->dim;
+    CU_ASSERT(isfinite(output.time));
+    const double *vectors[] = {output.u, output.v, output.p};
+    const double *tensors[] = {output.F, output.H, output.P};
+    for (int i = 0; i < 3; i++) {
+        CU_ASSERT(all_finite(count * dim, vectors[i]));
+        CU_ASSERT(all_finite(count * dim * dim, tensors[i]));
+    }
+    CU_ASSERT(all_finite(count, output.J));
+    CU_ASSERT(all_finite(count, output.pressure));
+    CU_ASSERT(all_finite(count, output.von_mises));
+    for (size_t a = 0; !solver_material_find(sample->scene->material_model)->in[0]->linear && a < count; a++) {
+        CU_ASSERT(output.J[a] > 0.0);
+    }
+}
+
+/* Runs until it breaks down; checks the message against the run, and that another attempt says the same. */
+static void break_down(const char *more, const char *settings, const char *field)
+{
+    struct sample sample = start(more, "%s", settings);
+    CU_ASSERT_FALSE_FATAL(solver_run_steps(sample.run, 5000, &sample.error));
+    CU_ASSERT_EQUAL(sample.error.code, SOLVER_BROKE_DOWN);
+    struct solver_output output = output_of(&sample);
+    size_t step = 0;
+    size_t particle = 0;
+    double time = NAN;
+    double X[3] = {0};
+    int read = sscanf(sample.error.text, "step %zu, t = %lf s: particle %zu at X = (%lf, %lf, %lf) m:", &step, &time,
+                      &particle, &X[0], &X[1], &X[2]);
+    bool named = strstr(sample.error.text, field) != NULL;
+    if (read != 6 || !named) {
+        printf("\n    %s: \"%s\" does not name %s", settings, sample.error.text, field);
+    }
+    CU_ASSERT(named);
+    CU_ASSERT_EQUAL_FATAL(read, 6);
+    CU_ASSERT_EQUAL(step, output.step + 1);
+    CU_ASSERT(time > output.time);
+    CU_ASSERT_FATAL(particle < output.cloud->count);
+    for (size_t i = 0; i < (size_t)output.cloud->dim; i++) {
+        CU_ASSERT_DOUBLE_EQUAL(X[i], output.cloud->X[particle * (size_t)output.cloud->dim + i], 1e-5);
+    }
+    CU_ASSERT_PTR_NOT_NULL(strstr(sample.error.text, "Try "));
+    check_output(&sample);
+    struct solver_error again;
+    CU_ASSERT_FALSE(solver_run_steps(sample.run, 1, &again));
+    CU_ASSERT_STRING_EQUAL(again.text, sample.error.text);
+    finish(&sample);
+}
+
+static const char implosion[] =
+    "initial = { velocity = function(X, Y, Z) return first(-60 * (X - 0.5), -50 * (Y - 0.5), -40 * (Z - 0.5)) end }\n";
+
+static void test_inverted(void)
+{
+    static const char *const settings[] = {"dim=3 evolved=pF",   "dim=3 evolved=pFJ",
+                                           "dim=3 evolved=pFHJ", "dim=2 evolved=pF integrator=rk4",
+                                           "dim=1 evolved=pF",   "dim=3 evolved=pF stencil=closed support=2.1"};
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        break_down(implosion, settings[i], "Jacobian J");
+    }
+}
+
+/* Far beyond the stability limit a linear body grows until its numbers overflow. */
+static void test_unstable(void)
+{
+    static const char *const settings[] = {
+        "dim=3 cfl=10 material.model=linear-elastic evolved=pF",
+        "dim=3 cfl=10 material.model=linear-elastic evolved=pFHJ integrator=rk4",
+        "dim=2 cfl=10 material.model=linear-elastic evolved=pFJ integrator=ssp-rk3",
+        "dim=1 cfl=10 material.model=linear-elastic evolved=pF",
+    };
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        break_down(smooth_motion, settings[i], "finite");
+    }
+    break_down(smooth_motion, "dim=3 cfl=10 evolved=pFHJ", "J");
+}
+
+/* A run to a time breaks down like one of steps, and its history ends before. */
+static void test_run_to(void)
+{
+    struct sample sample = start(implosion, "dim=3 evolved=pF");
+    CU_ASSERT_FALSE_FATAL(solver_run_to(sample.run, 1.0, NULL, NULL, &sample.error));
+    CU_ASSERT_EQUAL(sample.error.code, SOLVER_BROKE_DOWN);
+    const struct solver_history *history = solver_run_history(sample.run);
+    CU_ASSERT_FATAL(history->count > 0);
+    CU_ASSERT(history->totals[history->count - 1].time <= output_of(&sample).time);
+    for (size_t row = 0; row < history->count; row++) {
+        CU_ASSERT(isfinite(history->totals[row].kinetic) && isfinite(history->totals[row].strain));
+    }
+    check_output(&sample);
+    finish(&sample);
+}
+
+/* The field that is broken is the one named. */
+static void test_field_is_named(void)
+{
+    static const char fast[] = "initial = { velocity = function(X, Y, Z) return first(0, 1e200, 0) end }\n";
+    struct solver_error error = refusal(fast, "dim=2");
+    CU_ASSERT_EQUAL(error.code, SOLVER_BROKE_DOWN);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "linear momentum p"));
+    static const char folded[] = "initial = { displacement = function(X, Y, Z) return first(-2 * X, 0, 0) end }\n";
+    error = refusal(folded, "dim=2");
+    CU_ASSERT_EQUAL(error.code, SOLVER_BROKE_DOWN);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "Jacobian J <= 0"));
+    static const char torn[] = "initial = { F = function() return 1e160, 0, 0, 1e160 end }\n";
+    error = refusal(torn, "dim=2");
+    CU_ASSERT_EQUAL(error.code, SOLVER_BROKE_DOWN);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "deformation gradient F"));
+}
+
+/* A formula that fails later stops the run with the formula's error. */
+static void test_formula_fails(void)
+{
+    static const char late[] = "faces = { X0 = { kind = 'motion', value = function(X, Y, Z, t)\n"
+                               "    if t > 0.2 then return 0 / 0, 0, 0 end return 0.01, 0, 0 end } }\n";
+    struct sample sample = start(late, "dim=3");
+    CU_ASSERT_FALSE(solver_run_to(sample.run, 1.0, NULL, NULL, &sample.error));
+    CU_ASSERT_EQUAL(sample.error.code, SOLVER_BAD_INPUT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(sample.error.text, "faces.X0"));
+    CU_ASSERT(output_of(&sample).time < 0.2 + 0.1);
+    check_output(&sample);
+    finish(&sample);
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"turned inside out", test_inverted},
+        {"unstable until not finite", test_unstable},
+        {"on the way to t_end", test_run_to},
+        {"the broken field is the one named", test_field_is_named},
+        {"a formula that fails on the way", test_formula_fails},
+    };
+    return unit_main("breakdown", tests, sizeof tests / sizeof *tests);
+}
