@@ -208,8 +208,34 @@ static void against_differences(void)
     }
 }
 
+/* Particles on a line askew, whose moments are singular up to round-off alone, must not get gradients of 1e16. */
+static void collinear(void)
+{
+    enum { COUNT = 6, ROUNDS = 50 };
+    static const double along[3] = {1.0, 0.37, 0.21};
+    uint64_t state = 31;
+    for (int dim = 2; dim <= 3; dim++) {
+        for (int round = 0; round < ROUNDS; round++) {
+            double X[3 * COUNT], gradient[3 * COUNT * COUNT];
+            struct solver_cloud cloud = {.dim = dim, .count = COUNT, .spacing = 0.1, .X = X};
+            struct solver_graph graph;
+            struct solver_error error = {.code = SOLVER_OK};
+            for (size_t a = 0; a < COUNT; a++) {
+                double at = 0.1 * ((double)a + 0.3 * clouds_random(&state));
+                for (size_t i = 0; i < (size_t)dim; i++) {
+                    X[a * (size_t)dim + i] = at * along[i];
+                }
+            }
+            CU_ASSERT_FATAL(solver_graph_build(&cloud, 0.25, &graph, &error));
+            CU_ASSERT(!solver_kernel_gradients(&cloud, &graph, 0.25, NULL, gradient, &error));
+            CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "too few neighbours"));
+            solver_graph_free(&graph);
+        }
+    }
+}
+
 /* Supports that leave a particle alone, or with neighbours on a line only, are refused; whatever is not refused is
- * right. Perturbed clouds have particles whose neighbours lie in a plane up to round-off alone. */
+ * right. */
 static void small_supports(void)
 {
     size_t refused = 0, taken = 0;
@@ -242,6 +268,7 @@ int main(void)
         {"linear exactness", linear_exactness},
         {"volumes matter near the boundary only", volumes_matter},
         {"gradients against differences", against_differences},
+        {"collinear particles", collinear},
         {"small supports", small_supports},
     };
     return unit_main("solver kernel", tests, sizeof tests / sizeof *tests);
