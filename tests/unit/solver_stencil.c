@@ -84,6 +84,34 @@ static void false_claims_are_found(const struct solver_stencil_builder *builder,
     }
 }
 
+/* The face measure of the dissipation: max(0, (C_ab - C_ba)/2 . N_ab), where the builder does not set its own; one
+ * that does may not let a particle's faces enclose more than its volume, 1/2 sum_b A_ab |X_b - X_a| <= dim V_a, which
+ * would shorten the time step. */
+static void judge_faces(const struct solver_stencil_builder *builder, const struct solver_cloud *cloud,
+                        const struct solver_stencil *stencil)
+{
+    size_t dim = (size_t)stencil->dim;
+    double worst = 0.0, fullest = 0.0, face = pow(stencil->spacing, (double)dim - 1.0);
+    for (size_t a = 0; a < stencil->count; a++) {
+        double enclosed = 0.0;
+        for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
+            size_t b = stencil->graph.neighbour[ab];
+            const double *C = solver_stencil_C(stencil, ab);
+            const double *opposite = solver_stencil_C(stencil, solver_graph_find(&stencil->graph, b, a));
+            double along = 0.0, square = 0.0;
+            for (size_t axis = 0; axis < dim; axis++) {
+                double d = cloud->X[b * dim + axis] - cloud->X[a * dim + axis];
+                along += 0.5 * (C[axis] - opposite[axis]) * d;
+                square += d * d;
+            }
+            enclosed += 0.5 * C[dim] * sqrt(square);
+            properties_worse(&worst, fabs(C[dim] - fmax(0.0, along / sqrt(square))) / face);
+        }
+        properties_worse(&fullest, enclosed / ((double)dim * stencil->V[a]));
+    }
+    CU_ASSERT(builder->faces ? fullest <= 1.0 + exact && fullest > 0.1 : worst <= exact);
+}
+
 /* What no builder is free to lack. */
 static void judge_duties(const struct solver_stencil_builder *builder, const struct solver_stencil *stencil,
                          const struct stencil_properties *found)
@@ -115,6 +143,7 @@ static void conform(const struct solver_stencil_builder *builder, int dim, int e
         struct stencil_properties found = properties_measure(cloud, stencil, &box);
         report(builder, &box, stencil, &found);
         judge_duties(builder, stencil, &found);
+        judge_faces(builder, cloud, stencil);
         CU_ASSERT(claims_hold(builder, general, &found));
         false_claims_are_found(builder, general, &found);
     }
