@@ -28,10 +28,10 @@ static const char block[] =
     "stencil, integrator, cfl, evolved = 'sbp2', 'tvd-rk2', 0.3, 'pFHJ'\n";
 
 /* A free body that deforms smoothly and drifts. */
-static const char smooth_motion[] =
-    "initial = { velocity = function(X, Y, Z)\n"
-    "    return first(0.03 + 0.05 * sin(2 * X + Y + 0.3), 0.02 + 0.04 * cos(3 * Y - X + Z), 0.05 * sin(2 * Z + X))\n"
-    "end }\n";
+static const char smooth_motion[] = "initial = { velocity = function(X, Y, Z)\n"
+                                    "    return first(0.03 + 0.05 * sin(2 * X + Y + 0.3), 0.02 + 0.04 * cos(3 * Y - X "
+                                    "+ Z), 0.05 * sin(2 * Z + X + 0.2))\n"
+                                    "end }\n";
 
 struct sample {
     struct solver_scene *scene;
