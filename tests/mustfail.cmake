@@ -1,0 +1,60 @@
+# What is broken on purpose must be caught by the gate meant for it, and by exit code 1.
+include(${CMAKE_CURRENT_LIST_DIR}/scenes.cmake)
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+set(mustfail ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/mustfail.py)
+set(quick_sbp4 ${quick_scene} --levels 8,16)
+set(quick_rk2 ${quick_scene} --levels 8,16 --set integrator=tvd-rk2 --set cfl=0.3)
+set(quick_sbp2 ${quick_rk2} --set stencil=sbp2)
+set(quick_sph ${quick_rk2} --set stencil=sph)
+
+# First-order reconstruction is a choice of the scene.
+assay_test(mustfail-first-order-reconstruction LABELS gate mustfail COMMAND ${mustfail} mustfail/reconstruction
+  "p,P,rate p,rate P" $<TARGET_FILE:assay> ${quick_sbp2} -- $<TARGET_FILE:assay> ${quick_sbp2} --set reconstruction=none)
+
+# Mutants: the program with one of its sources broken as tests/mutants/NAME.mutant says; the solver holds no code for
+# tests. The broken object stands on the command line, so the linker has no use for that of the library; had it, both
+# would define the same names, which is an error. Debug builds, which run the unit programs only, go without.
+if(NOT CMAKE_BUILD_TYPE STREQUAL "Release")
+  message(STATUS "no mutants: they are for the build type Release")
+  return()
+endif()
+
+add_library(assay_main OBJECT ${CMAKE_SOURCE_DIR}/verify/main.c)
+target_link_libraries(assay_main PRIVATE assay_verify)
+
+# assay_mutant(NAME GATES WORD...): `verify WORD...` must fail, by these gates among others.
+function(assay_mutant name gates)
+  set(mutant ${CMAKE_CURRENT_SOURCE_DIR}/mutants/${name}.mutant)
+  file(STRINGS ${mutant} source REGEX "^source: " LIMIT_COUNT 1)
+  string(REPLACE "source: " "" source "${source}")
+  get_filename_component(file "${source}" NAME)
+  set(broken ${CMAKE_BINARY_DIR}/mutants/${name}/${file})
+  set(script ${CMAKE_CURRENT_SOURCE_DIR}/mutants/mutate.py)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/mutants/${name})
+  add_custom_command(OUTPUT ${broken} VERBATIM DEPENDS ${script} ${mutant} ${CMAKE_SOURCE_DIR}/${source}
+    COMMAND ${Python3_EXECUTABLE} ${script} ${CMAKE_SOURCE_DIR} ${mutant} ${broken})
+  # As its library compiles it: all scenes of these tests are in 3D.
+  set(library assay_solver)
+  if(file MATCHES "_dim\\.c$")
+    set(library assay_solver_3d)
+  endif()
+  add_library(mutated_${name} OBJECT ${broken})
+  target_compile_definitions(mutated_${name} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_DEFINITIONS>)
+  target_compile_options(mutated_${name} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_OPTIONS>)
+  target_include_directories(mutated_${name} PRIVATE ${CMAKE_SOURCE_DIR})
+  add_executable(mutant_${name} $<TARGET_OBJECTS:mutated_${name}> $<TARGET_OBJECTS:assay_main>)
+  target_link_libraries(mutant_${name} PRIVATE assay_verify)
+  assay_test(mustfail-${name} LABELS gate mustfail COMMAND ${mustfail} mustfail/${name} ${gates}
+    $<TARGET_FILE:assay> ${ARGN} -- $<TARGET_FILE:mutant_${name}> ${ARGN})
+endfunction()
+
+assay_mutant(gradient-correction "p,P" ${quick_sph})
+assay_mutant(momentum-dissipation-sign "p,P" ${quick_sbp2})
+assay_mutant(volume-dissipation-sign "p,P" ${quick_sbp2})
+assay_mutant(corner-constraint "p,P" ${quick_sbp2})
+assay_mutant(stress-one-percent "p,P" ${quick_sbp4})
+assay_mutant(sbp2-boundary-weight "p,P" ${quick_sbp2})
+assay_mutant(sbp4-boundary-weight "p,P" ${quick_sbp4})
+assay_mutant(free-traction "p,P" ${quick_sbp2})
+assay_mutant(rk2-weight "p,P" ${quick_sbp2})
+assay_mutant(rk4-weight "p,P" ${quick_sbp4})

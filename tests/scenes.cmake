@@ -1,0 +1,18 @@
+include_guard() # included where needed, and once more with every file here
+# Scenes for tests: the swinging cube with other gates, so that nothing else can come to differ.
+set(scene_file ${CMAKE_SOURCE_DIR}/verify/scenes/swinging-cube.lua)
+set(quick_gates ${CMAKE_CURRENT_SOURCE_DIR}/scenes/quick-gates.lua)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${scene_file} ${quick_gates})
+file(READ ${scene_file} scene)
+file(READ ${quick_gates} gates)
+string(FIND "${scene}" "\ngates = {\n" first)
+string(SUBSTRING "${scene}" ${first} -1 rest)
+string(FIND "${rest}" "\n}\n" last)
+if(first EQUAL -1 OR last EQUAL -1)
+  message(FATAL_ERROR "${scene_file}: no table of gates was found, from \"gates = {\" to \"}\"")
+endif()
+math(EXPR end "${last} + 3")
+string(SUBSTRING "${scene}" 0 ${first} before)
+string(SUBSTRING "${rest}" ${end} -1 after)
+set(quick_scene ${CMAKE_BINARY_DIR}/scenes/swinging-cube-quick.lua)
+file(CONFIGURE OUTPUT ${quick_scene} CONTENT "@before@\n@gates@@after@" @ONLY)
