@@ -1,4 +1,4 @@
-/* What a run holds; for run.c and run_output.c only. */
+/* What a run holds; for run.c, run_step.c and run_output.c only. */
 #ifndef SOLVER_RUN_INTERNAL_H
 #define SOLVER_RUN_INTERNAL_H
 
@@ -27,6 +27,12 @@ struct solver_run {
     uint32_t probe[SOLVER_PROBES];
 };
 
+/* Monotonic clock [s]. */
+double solver_run_clock(void);
+/* Stresses of the present state. */
+void solver_run_stresses(struct solver_run *run);
+/* Fails with SOLVER_BROKE_DOWN if any particle's state is broken. */
+bool solver_run_check(struct solver_run *run, struct solver_error *error);
 /* Appends the present state to the history. */
 bool solver_run_note(struct solver_run *run, struct solver_error *error);
 void solver_run_output_free(struct solver_run *run);

@@ -60,7 +60,19 @@ static const struct verify_command commands[] = {
      .least = 2,
      .most = 2,
      .run = verify_command_golden},
-    /* assay bench: a row here, and command_bench.c */
+    {.name = "bench",
+     .operands = "SCENE",
+     .summary = "what a particle-step costs, beside what the machine's memory allows",
+     .help =
+         "Times steps of a scene for every stencil and evolved set, on one thread and with tvd-rk2 at CFL 0.3 unless\n"
+         "--set says otherwise, and measures the machine's memory bandwidth in the same run. A measurement, not a\n"
+         "test: it has no bound to fail.\n\n"
+         "  assay bench swinging-cube\n"
+         "  assay bench swinging-cube --set stencil=closed --set evolved=pF --set threads=2",
+     .takes = VERIFY_TAKES_SET,
+     .least = 1,
+     .most = 1,
+     .run = verify_command_bench},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
