@@ -1,0 +1,15 @@
+# The stored record and picture of the scene, and what must not pass beside them. After a change that is meant to alter
+# results: assay golden update swinging-cube, look at golden/swinging-cube.png, commit both files.
+assay_test(golden-stored LABELS golden image COMMAND $<TARGET_FILE:assay> golden check swinging-cube
+  --out golden-stored)
+
+add_executable(golden_spoil ${CMAKE_CURRENT_SOURCE_DIR}/golden_spoil.c)
+target_link_libraries(golden_spoil PRIVATE assay_solver assay_render)
+set(golden_spoilt sh ${CMAKE_CURRENT_SOURCE_DIR}/golden_spoilt.sh $<TARGET_FILE:assay> $<TARGET_FILE:golden_spoil>
+  ${CMAKE_SOURCE_DIR}/golden)
+foreach(name displacement velocity momentum F J P pressure von_mises kinetic_energy total_energy)
+  assay_test(golden-sees-tenth-digit-of-${name} LABELS golden mustfail COMMAND ${golden_spoilt} golden-spoilt/${name}
+    swinging-cube.vtkhdf ${name} "${name} ")
+endforeach()
+assay_test(golden-sees-mirrored-picture LABELS golden image mustfail COMMAND ${golden_spoilt} golden-spoilt/mirrored
+  swinging-cube.png mirrored "picture:")
