@@ -110,13 +110,13 @@ static void seeds(void)
         check_shifts(first, still, 0.2);
         check_shifts(other, still, 0.2);
         for (size_t a = 0; a < first->count; a++) {
-            CU_ASSERT(first->tags[a] != 0 ||
-                      memcmp(first->X + a * (size_t)dim, other->X + a * (size_t)dim, sizeof(double)) != 0);
+            CU_ASSERT(first->tags[a] != 0 || first->X[a * (size_t)dim] != other->X[a * (size_t)dim]);
         }
-        struct solver_cloud *made[] = {first, again, other, still, still_again};
-        for (size_t i = 0; i < sizeof made / sizeof *made; i++) {
-            solver_cloud_free(made[i]);
-        }
+        solver_cloud_free(first);
+        solver_cloud_free(again);
+        solver_cloud_free(other);
+        solver_cloud_free(still);
+        solver_cloud_free(still_again);
     }
 }
 

@@ -8,20 +8,19 @@
 #include <omp.h>
 #include <string.h>
 
-/* A stencil on a perturbed cloud, or on a lattice for builders that need one. */
 struct made {
     struct solver_cloud *cloud;
     struct solver_stencil *stencil;
 };
 
-static struct made make(const char *builder, int dim, int edge, double perturb)
+/* A stencil on a perturbed cloud, or, for builders that need one, on a lattice with enough points for each of them. */
+static struct made make(const struct solver_stencil_builder *builder, int dim)
 {
-    const struct solver_stencil_builder *found = solver_stencil_find(builder);
-    struct solver_box box = clouds_box(dim, edge, perturb, 23);
+    struct solver_box box = clouds_box(dim, builder->lattice_only ? 7 : 5, builder->lattice_only ? 0.0 : 0.15, 23);
     struct made made = {.cloud = clouds_make(&box)};
     struct solver_error error = {.code = SOLVER_OK};
-    CU_ASSERT_FATAL(found != NULL && made.cloud != NULL);
-    CU_ASSERT_FATAL(solver_stencil_create(found, made.cloud, dim == 1 ? 3.0 : 2.1, &made.stencil, &error));
+    CU_ASSERT_PTR_NOT_NULL_FATAL(made.cloud);
+    CU_ASSERT_FATAL(solver_stencil_create(builder, made.cloud, dim == 1 ? 3.0 : 2.1, &made.stencil, &error));
     return made;
 }
 
@@ -108,7 +107,7 @@ static void damage_area_and_volume(struct made *made)
 /* What is no number must not pass for a small one. */
 static void damaged_with_nan(void)
 {
-    struct made made = make("sbp2", 2, 8, 0.0);
+    struct made made = make(solver_stencil_find("sbp2"), 2);
     solver_stencil_C(made.stencil, made.stencil->pairs / 2)[0] = NAN;
     struct solver_stencil_residuals after = solver_stencil_check(made.stencil, made.cloud);
     CU_ASSERT(!(after.antisymmetry <= 1e-6));
@@ -137,7 +136,7 @@ static void damaged(void)
 {
     for (const struct solver_stencil_builder *b = solver_stencil_builders(); b->name != NULL; b++) {
         for (int dim = 1; dim <= 3 && b->antisymmetric && b->closed; dim++) {
-            struct made made = make(b->name, dim, 8, b->lattice_only ? 0.0 : 0.15);
+            struct made made = make(b, dim);
             const size_t places[] = {0, made.stencil->count / 3, made.stencil->count - 1};
             for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
                 for (size_t axis = 0; axis < (size_t)dim; axis++) {
@@ -156,7 +155,7 @@ static void least_squares(void)
 {
     for (const struct solver_stencil_builder *b = solver_stencil_builders(); b->name != NULL; b++) {
         for (int dim = 1; dim <= 3; dim++) {
-            struct made made = make(b->name, dim, 8, b->lattice_only ? 0.0 : 0.15);
+            struct made made = make(b, dim);
             const struct solver_stencil *stencil = made.stencil;
             struct solver_error error;
             size_t width = (size_t)dim, bytes = solver_stencil_bytes(stencil);
@@ -185,7 +184,7 @@ static void least_squares(void)
 /* Weights 1/|d|^2, checked where the sum can be done by hand: on a 1D line each of n neighbours weighs d/(n d^2). */
 static void least_squares_by_hand(void)
 {
-    struct made made = make("closed", 1, 8, 0.0);
+    struct made made = make(solver_stencil_find("closed"), 1);
     const struct solver_stencil *stencil = made.stencil;
     struct solver_error error;
     CU_ASSERT_FATAL(solver_stencil_add_least_squares(made.stencil, made.cloud, &error));
@@ -283,9 +282,9 @@ static void same_bytes(void)
     int most = omp_get_max_threads();
     for (const struct solver_stencil_builder *b = solver_stencil_builders(); b->name != NULL; b++) {
         omp_set_num_threads(1);
-        struct made one = make(b->name, 3, 8, b->lattice_only ? 0.0 : 0.15);
+        struct made one = make(b, 3);
         omp_set_num_threads(4);
-        struct made four = make(b->name, 3, 8, b->lattice_only ? 0.0 : 0.15);
+        struct made four = make(b, 3);
         const struct solver_stencil *x = one.stencil, *y = four.stencil;
         CU_ASSERT_FATAL(x->pairs == y->pairs && x->count == y->count);
         CU_ASSERT_EQUAL(memcmp(x->pair, y->pair, x->pairs * 4 * sizeof *x->pair), 0);
