@@ -11,10 +11,14 @@
 
 DECLARE(solver_linear_elastic);
 DECLARE(solver_neo_hookean);
+DECLARE(solver_neo_hookean_polyconvex);
 
 static const struct solver_material_model models[] = {
     {"linear-elastic", "Hooke's law, small strain", IN_EVERY_DIMENSION(solver_linear_elastic)},
-    {"neo-hookean", "polyconvex neo-Hookean, isochoric plus volumetric energy", IN_EVERY_DIMENSION(solver_neo_hookean)},
+    {"neo-hookean", "neo-Hookean, det F in the isochoric energy, J in the volumetric",
+     IN_EVERY_DIMENSION(solver_neo_hookean)},
+    {"neo-hookean-polyconvex", "neo-Hookean, the evolved J in both energies: polyconvex",
+     IN_EVERY_DIMENSION(solver_neo_hookean_polyconvex)},
     {NULL, NULL, {NULL}},
 };
 

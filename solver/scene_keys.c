@@ -32,8 +32,8 @@ X("levels", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing w
 X("perturb", NUMBER, AT(perturb), 0, 0.3, 0, "", "0", "number in [0, 0.3]",                                            \
   "random shift of interior particles, as a fraction of the spacing")                                                  \
 X("seed", SEED, AT(seed), 0, 0, 0, "", "1", "whole number >= 0", "of the random shift")                                \
-X("material.model", WORD, AT(material_model), 0, 0, 0, "linear-elastic neo-hookean", NEEDED,                           \
-  "one of linear-elastic, neo-hookean", "constitutive model")                                                          \
+X("material.model", WORD, AT(material_model), 0, 0, 0, "linear-elastic neo-hookean neo-hookean-polyconvex", NEEDED,                           \
+  "one of linear-elastic, neo-hookean, neo-hookean-polyconvex", "constitutive model")                                                          \
 X("material.E", NUMBER, AT(E), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [Pa]", "Young's modulus")               \
 X("material.nu", NUMBER, AT(nu), -1 + DBL_EPSILON / 2, 0.5, 0, "", NEEDED, "number in (-1, 0.5]", "Poisson's ratio")   \
 X("material.rho", NUMBER, AT(rho), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [kg/m^3]",                          \
