@@ -2,8 +2,9 @@
 include(${CMAKE_CURRENT_LIST_DIR}/scenes.cmake)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(mustfail ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/mustfail.py)
-set(quick_sbp4 ${quick_scene} --levels 8,16)
-set(quick_rk2 ${quick_scene} --levels 8,16 --set integrator=tvd-rk2 --set cfl=0.3)
+# One thread each: ctest runs as many of them as there are cores.
+set(quick_sbp4 ${quick_scene} --levels 8,16 --set threads=1)
+set(quick_rk2 ${quick_sbp4} --set integrator=tvd-rk2 --set cfl=0.3)
 set(quick_sbp2 ${quick_rk2} --set stencil=sbp2)
 set(quick_sph ${quick_rk2} --set stencil=sph)
 
@@ -27,15 +28,14 @@ function(assay_mutant name gates)
   set(mutant ${CMAKE_CURRENT_SOURCE_DIR}/mutants/${name}.mutant)
   file(STRINGS ${mutant} source REGEX "^source: " LIMIT_COUNT 1)
   string(REPLACE "source: " "" source "${source}")
-  get_filename_component(file "${source}" NAME)
-  set(broken ${CMAKE_BINARY_DIR}/mutants/${name}/${file})
+  set(broken ${CMAKE_BINARY_DIR}/mutants/${name}/${source})
   set(script ${CMAKE_CURRENT_SOURCE_DIR}/mutants/mutate.py)
-  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/mutants/${name})
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/mutants/${name}/solver)
   add_custom_command(OUTPUT ${broken} VERBATIM DEPENDS ${script} ${mutant} ${CMAKE_SOURCE_DIR}/${source}
     COMMAND ${Python3_EXECUTABLE} ${script} ${CMAKE_SOURCE_DIR} ${mutant} ${broken})
   # As its library compiles it: all scenes of these tests are in 3D.
   set(library assay_solver)
-  if(file MATCHES "_dim\\.c$")
+  if(source MATCHES "_dim\\.c$")
     set(library assay_solver_3d)
   endif()
   add_library(mutated_${name} OBJECT ${broken})
@@ -58,3 +58,8 @@ assay_mutant(sbp4-boundary-weight "p,P" ${quick_sbp4})
 assay_mutant(free-traction "p,P" ${quick_sbp2})
 assay_mutant(rk2-weight "p,P" ${quick_sbp2})
 assay_mutant(rk4-weight "p,P" ${quick_sbp4})
+
+# A mutant whose text is no longer in the source is an error: here, in a source that is broken already.
+assay_test(mustfail-rotten-mutant LABELS mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 1
+  "holds this text 0 times, expected once" ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/mutants/mutate.py
+  mutants/rk4-weight ${CMAKE_CURRENT_SOURCE_DIR}/mutants/rk4-weight.mutant mutants/rotten.c)
