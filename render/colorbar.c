@@ -99,7 +99,7 @@ void render_colorbar(struct render_paint *paint, const struct render_layout *lay
     }
     for (int i = 0; i <= view->bands; i++) {
         const float y = y1 - step * (float)i;
-        outline(paint, x0, y, x1, y, i % view->bands == 0 ? unit : 0.5f * unit);
+        outline(paint, x0, y, x1, y, i == 0 || i == view->bands ? unit : 0.5f * unit);
     }
     outline(paint, x0, y0, x0, y1, unit);
     outline(paint, x1, y0, x1, y1, unit);

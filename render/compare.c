@@ -161,7 +161,7 @@ bool render_compare(const struct render_image *stored, const struct render_image
     float *pixels = NULL;
     bool fine = make_patch(stored, &a) && make_patch(fresh, &b);
     if (fine)
-        pixels = malloc((size_t)a.width * (size_t)a.height * sizeof *pixels);
+        pixels = calloc((size_t)a.width * (size_t)a.height, sizeof *pixels);
     if (pixels) {
         subtract(&a, &b, pixels);
         judge(&a, pixels, fresh->body, difference);

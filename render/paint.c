@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-enum { POINTS = 3 * 8192, CAP_CORNERS = 16, PLACE = 0, INK = 1, VALUE = 2 };
+enum { POINTS = 3 * 8192, CAP_EDGES = 8, PLACE = 0, INK = 1, VALUE = 2 };
 
 struct render_paint {
     struct render_context *context;
@@ -167,8 +167,8 @@ static void cap(struct render_paint *paint, const float at[3], float across_x, f
 {
     struct render_point fan[3] = {render_inked(at[0], at[1], at[2], ink),
                                   render_inked(at[0] + across_x, at[1] + across_y, at[2], ink)};
-    for (int i = 1; i <= CAP_CORNERS / 2; i++) {
-        const float angle = (float)M_PI * (float)i / (CAP_CORNERS / 2), c = cosf(angle), s = sinf(angle);
+    for (int i = 1; i <= CAP_EDGES; i++) {
+        const float angle = (float)M_PI * (float)i / CAP_EDGES, c = cosf(angle), s = sinf(angle);
         fan[2] = render_inked(at[0] + c * across_x - s * across_y, at[1] + s * across_x + c * across_y, at[2], ink);
         render_paint_triangle(paint, fan);
         fan[1] = fan[2];

@@ -95,10 +95,15 @@ bool render_png_write(const char *path, const struct render_image *image, char w
 
 static bool parse_rectangle(const char *text, int width, int height, int body[4])
 {
-    int used = -1;
-    return sscanf(text, "%5d %5d %5d %5d%n", &body[0], &body[1], &body[2], &body[3], &used) == 4 && used > 0 &&
-           text[used] == '\0' && body[0] >= 0 && body[1] >= 0 && body[0] < body[2] && body[1] < body[3] &&
-           body[2] <= width && body[3] <= height;
+    for (int i = 0; i < 4; i++) {
+        char *end;
+        const long number = strtol(text, &end, 10);
+        if (end == text || *end != (i < 3 ? ' ' : '\0') || number < 0 || number > RENDER_MOST)
+            return false;
+        body[i] = (int)number;
+        text = end;
+    }
+    return body[0] < body[2] && body[1] < body[3] && body[2] <= width && body[3] <= height;
 }
 
 static void find_rectangle(png_structp png, png_infop info, struct render_image *image)
@@ -160,12 +165,12 @@ bool render_png_read(const char *path, struct render_image **image, char why[REN
         return render_fail(why, "%s: cannot be read: %s", path, strerror(errno));
     struct stat status;
     if (fstat(fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) {
-        fclose(file);
+        (void)fclose(file);
         return render_fail(why, "%s: not a regular file; expected a PNG picture", path);
     }
     struct complaint complaint = {""};
     const bool fine = read_guarded(file, image, &complaint);
-    fclose(file);
+    (void)fclose(file);
     if (fine)
         return true;
     render_image_free(*image);

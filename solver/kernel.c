@@ -14,7 +14,7 @@ double solver_kernel(double q, double *derivative)
     return 3.0 / 16.0 * q * q - 3.0 / 4.0 * q + 3.0 / 4.0;
 }
 
-/* W_b(X_a) and its gradient with respect to X_a. */
+/* W_b(X_a) and its gradient with respect to X_a; zero along axes that the cloud does not have. */
 static double kernel_at(const struct solver_cloud *cloud, size_t a, size_t b, double radius, double gradient[3])
 {
     size_t dim = (size_t)cloud->dim;
@@ -28,7 +28,7 @@ static double kernel_at(const struct solver_cloud *cloud, size_t a, size_t b, do
     }
     double distance = sqrt(square);
     double value = solver_kernel(distance / h, &slope);
-    for (size_t axis = 0; axis < dim; axis++) {
+    for (size_t axis = 0; axis < 3; axis++) {
         gradient[axis] = distance > 0.0 ? slope / h * d[axis] / distance : 0.0;
     }
     return value;

@@ -63,7 +63,7 @@ static void all_columns(struct columns *at, const double *total_energy)
     const size_t stride = sizeof(struct solver_totals) / sizeof(double);
     _Static_assert(sizeof(struct solver_totals) % sizeof(double) == 0, "totals are rows of doubles");
     static const struct solver_totals none; /* with no rows nothing of it is read */
-    const struct solver_totals *totals = at->record->history_count > 0 ? at->history->totals : &none;
+    const struct solver_totals *totals = at->history != NULL && at->history->count > 0 ? at->history->totals : &none;
     column(at, "time", "s", &totals->time, stride);
     components(at, "linear_momentum", momentum_unit[dim], totals->linear, stride, 0, dim);
     /* A plane body turns about z alone, a line not at all. */
