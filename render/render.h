@@ -31,7 +31,7 @@ struct render_view {
     int bands;
     int width, height; /* pixels */
     double frame[6]; /* x0 x1 y0 y1 z0 z1 [m]: what must stay in sight, so that the view does not move with the body */
-    const char *title; /* "Swinging cube, t = 0.002 s" */
+    const char *title; /* "Swinging cube, t = 0.002 s, displacement × 300" */
     const char *label; /* "mean stress" */
     const char *unit;  /* "Pa" */
 };

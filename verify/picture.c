@@ -169,8 +169,12 @@ bool verify_picture_draw(const struct solver_record *record, const struct solver
 {
     const struct solver_view *used = view != NULL ? view : &corner_view;
     const char *unit = "";
-    char full_title[SOLVER_TEXT + 64];
-    (void)snprintf(full_title, sizeof full_title, "%s, t = %.6g s", title, record->time);
+    char full_title[SOLVER_TEXT + 128];
+    char magnified[64] = "";
+    if (used->magnify != 1.0) {
+        (void)snprintf(magnified, sizeof magnified, ", displacement \u00d7 %g", used->magnify);
+    }
+    (void)snprintf(full_title, sizeof full_title, "%s, t = %.6g s%s", title, record->time, magnified);
     double *position = calloc(record->count, 4 * sizeof *position);
     if (position == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the picture of %zu particles", record->count);
