@@ -8,6 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What the scene says, else as many threads as there are cores, each with two pieces of work or more: with less, they
+ * wait for each other longer than they work. */
+static int choose_threads(int wanted, size_t particles)
+{
+    size_t worth = particles / (2 * (size_t)SOLVER_PIECE);
+    int cores = omp_get_num_procs();
+    if (wanted > 0) {
+        return wanted;
+    }
+    return worth < 1 ? 1 : worth < (size_t)cores ? (int)worth : cores;
+}
+
 static void choose_terms(struct solver_run *run)
 {
     const struct solver_scene *scene = run->scene;
@@ -142,8 +154,12 @@ static bool build(struct solver_run *run, struct solver_error *error)
                            scene->path, scene->integrator, scene->stencil, scene->material_model);
     }
     choose_terms(run);
-    if (!solver_cloud_box(&box, &run->cloud, error) ||
-        !solver_stencil_create(builder, run->cloud, scene->support, &run->stencil, error) ||
+    if (!solver_cloud_box(&box, &run->cloud, error)) {
+        return false;
+    }
+    run->threads = choose_threads(scene->threads, run->cloud->count);
+    omp_set_num_threads(run->threads);
+    if (!solver_stencil_create(builder, run->cloud, scene->support, &run->stencil, error) ||
         (least_squares && !solver_stencil_add_least_squares(run->stencil, run->cloud, error)) ||
         !solver_faces_create(scene, run->stencil, run->cloud, &run->faces, error) ||
         !solver_state_create(&run->state, run->cloud->count, scene->dim, run->integrator, least_squares, &run->work,
@@ -169,8 +185,6 @@ bool solver_run_create(const struct solver_scene *scene, struct solver_run **out
         return false;
     }
     run->scene = scene;
-    run->threads = scene->threads > 0 ? scene->threads : omp_get_num_procs();
-    omp_set_num_threads(run->threads);
     if (!build(run, error)) {
         solver_run_free(run);
         return false;
@@ -201,8 +215,8 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
     double evolved = 8.0 * (double)run->state.evolved / count;
     double stencil = (double)solver_stencil_bytes(run->stencil) / count;
     /* per stage: the stencil twice (gradients, rates); fields read by both, rates written; in the update state, start
-     * and rate read, state and derived fields written. Per step: one copy of the state. */
-    double stage = 2.0 * stencil + 2.0 * fields + evolved + 3.0 * evolved + fields;
+     * and rate read, state and derived fields written. The first stage writes the start instead of reading it. */
+    double stage = 2.0 * stencil + 3.0 * fields + 4.0 * evolved;
     double closure = fmax(run->residuals.closure, run->residuals.linear);
     return (struct solver_facts){
         .particles = run->cloud->count,
@@ -213,7 +227,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .seconds = run->seconds,
         .bytes_per_particle = state + stencil,
         .state_bytes = fields,
-        .step_traffic = run->integrator->stages * stage + 2.0 * evolved,
+        .step_traffic = run->integrator->stages * stage,
         .stencil_residual = closure,
         .threads = run->threads,
     };

@@ -7,6 +7,10 @@
 #include "solver/state.h"
 #include "solver/stencil.h"
 
+/* Particles per piece of work. A piece's result does not depend on who does it, and pieces are combined in order, so
+ * results are the same for any number of threads. */
+enum { SOLVER_PIECE = 256 };
+
 struct solver_run {
     const struct solver_scene *scene;
     struct solver_cloud *cloud;

@@ -6,9 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-/* Particles per piece of work. A piece's result does not depend on who does it, and pieces are combined in order, so
- * results are the same for any number of threads. */
-enum { PIECE = 256, HISTORY_ROWS = 200 };
+enum { HISTORY_ROWS = 200 };
 
 double solver_run_clock(void)
 {
@@ -19,13 +17,13 @@ double solver_run_clock(void)
 
 static size_t pieces(const struct solver_run *run)
 {
-    return (run->cloud->count + PIECE - 1) / PIECE;
+    return (run->cloud->count + SOLVER_PIECE - 1) / SOLVER_PIECE;
 }
 
 static void bounds(const struct solver_run *run, size_t piece, size_t *begin, size_t *end)
 {
-    *begin = piece * PIECE;
-    *end = *begin + PIECE < run->cloud->count ? *begin + PIECE : run->cloud->count;
+    *begin = piece * SOLVER_PIECE;
+    *end = *begin + SOLVER_PIECE < run->cloud->count ? *begin + SOLVER_PIECE : run->cloud->count;
 }
 
 /* Fails with SOLVER_BROKE_DOWN if any particle's state is broken. */
@@ -90,24 +88,36 @@ static bool evaluate(struct solver_run *run, double t, double *power, struct sol
                              work->rho, work->p_rate, power, error);
 }
 
-/* One stage's update of one field over [first, last). */
+/* One stage's update of the block's entries [first, last). The first stage of every integrator sets out from the state
+ * itself, which it keeps as the start of the step. */
 static void update_slice(const struct solver_state *state, const struct solver_stage *stage, double dt, size_t first,
                          size_t last)
 {
     double *restrict U = state->U;
-    const double *restrict start = state->start;
+    double *restrict start = state->start;
     const double *restrict rate = state->rate;
-    if (state->sum == NULL) {
+    double *restrict sum = state->sum;
+    bool begins = stage->time == 0.0;
+    if (begins && sum == NULL) {
+        for (size_t i = first; i < last; i++) {
+            start[i] = U[i];
+            U[i] += dt * stage->rate * rate[i];
+        }
+    } else if (begins) {
+        for (size_t i = first; i < last; i++) {
+            start[i] = U[i];
+            U[i] += dt * stage->rate * rate[i];
+            sum[i] = stage->accumulate * rate[i];
+        }
+    } else if (sum == NULL) {
         for (size_t i = first; i < last; i++) {
             U[i] = stage->old * start[i] + stage->keep * U[i] + dt * stage->rate * rate[i];
         }
-        return;
-    }
-    double *restrict sum = state->sum;
-    double keep_sum = stage->time > 0.0 ? 1.0 : 0.0; /* the first stage starts the sum */
-    for (size_t i = first; i < last; i++) {
-        U[i] = stage->old * start[i] + stage->keep * U[i] + dt * (stage->rate * rate[i] + stage->sum * sum[i]);
-        sum[i] = keep_sum * sum[i] + stage->accumulate * rate[i];
+    } else {
+        for (size_t i = first; i < last; i++) {
+            U[i] = stage->old * start[i] + stage->keep * U[i] + dt * (stage->rate * rate[i] + stage->sum * sum[i]);
+            sum[i] += stage->accumulate * rate[i];
+        }
     }
 }
 
@@ -161,7 +171,6 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
 {
     const struct solver_integrator *integrator = run->integrator;
     double work = 0.0;
-    memcpy(run->state.start, run->state.U, run->state.evolved * sizeof(double));
     for (int s = 0; s < integrator->stages; s++) {
         const struct solver_stage *stage = &integrator->stage[s];
         double next = s + 1 < integrator->stages ? integrator->stage[s + 1].time : 1.0;

@@ -118,7 +118,7 @@ struct solver_scene {
     double cfl;
     double t_end;                /* [s] */
     char precision[SOLVER_NAME]; /* "double" */
-    int threads;                 /* 0: all that the machine offers */
+    int threads;                 /* 0: as many as there are cores and the work is worth */
 
     enum solver_face_kind face[SOLVER_FACES]; /* X0, X1, Y0, Y1, Z0, Z1 */
     struct solver_probe probe[SOLVER_PROBES];

@@ -3,6 +3,8 @@
 
 #include "solver/stencil.h"
 
+#include <omp.h>
+
 /* Everything a run shows, one array after another. */
 struct bytes {
     size_t size;
@@ -136,12 +138,28 @@ static void test_comparison_sees(void)
     free(changed.value);
 }
 
+/* What a scene asks for it gets; left to itself, a run takes a thread for each 512 particles, at most one per core. */
+static void test_number(void)
+{
+    static const struct {
+        int n, asked, worth;
+    } lines[] = {{500, 0, 1}, {500, 3, 3}, {1100, 0, 2}, {100000, 0, 195}};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        struct sample sample = start("", "dim=1 n=%d threads=%d", lines[i].n, lines[i].asked);
+        int cores = omp_get_num_procs();
+        int expected = lines[i].asked == 0 && lines[i].worth > cores ? cores : lines[i].worth;
+        CU_ASSERT_EQUAL(solver_run_facts(sample.run).threads, expected);
+        finish(&sample);
+    }
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
         {"every stencil, evolved set and dimension", test_every_stencil_and_set},
         {"reconstructions, fluxes, integrators, perturbed clouds", test_other_choices},
         {"the comparison sees one bit", test_comparison_sees},
+        {"number of threads", test_number},
     };
     return unit_main("run on threads", tests, sizeof tests / sizeof *tests);
 }
