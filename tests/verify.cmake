@@ -33,10 +33,14 @@ cli_refuses(json-to-a-device "not a plain file" verify swinging-cube --levels 8 
             --json /dev/null)
 cli_refuses(out-is-a-file "CMakeCache.txt" run swinging-cube --set n=8 --out CMakeCache.txt)
 
-foreach(command list run verify render golden)
+foreach(command list run verify render golden bench)
   assay_test(cli-help-${command} LABELS unit COMMAND ${cli} 0 "usage: assay ${command}" ${assay} ${command} --help)
 endforeach()
 assay_test(cli-list LABELS unit COMMAND ${cli} 0 "Swinging cube" ${assay} list)
+assay_test(cli-list-schemes LABELS unit COMMAND ${cli} 0 "cofactor H" ${assay} list schemes)
+assay_test(cli-list-materials LABELS unit COMMAND ${cli} 0 "Hooke's law" ${assay} list materials)
+assay_test(cli-list-stencils LABELS unit COMMAND ${cli} 0 "summation-by-parts 4-2" ${assay} list stencils)
+assay_test(cli-list-integrators LABELS unit COMMAND ${cli} 0 "four-stage" ${assay} list integrators)
 assay_test(cli-list-keys LABELS unit COMMAND ${cli} 0 "material.nu" ${assay} list keys)
 
 # An oracle that is told another number than the solver must make the gates fail: amplitude and modulus by 1 %.

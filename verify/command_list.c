@@ -1,4 +1,7 @@
 #include "oracles/oracle.h"
+#include "solver/integrator.h"
+#include "solver/material.h"
+#include "solver/stencil.h"
 #include "verify/commands.h"
 #include "verify/find.h"
 #include "verify/suggest.h"
@@ -43,39 +46,50 @@ static bool list_oracles(struct solver_error *error)
     return true;
 }
 
-/* What a key of every scene admits. */
-static bool list_key(const char *heading, const char *name)
+static void list_line(const char *name, const char *summary)
 {
-    for (const struct solver_scene_key *key = solver_scene_keys(); key->key != NULL; key++) {
-        if (strcmp(key->key, name) == 0) {
-            (void)printf("%-26s %s\n", heading, key->expects);
-        }
-    }
-    return true;
+    (void)printf("  %-24s %s\n", name, summary);
 }
 
 static bool list_schemes(struct solver_error *error)
 {
     (void)error;
-    return list_key("schemes", "scheme") && list_key("evolved sets", "evolved");
+    (void)printf("schemes\n");
+    list_line("upwind", "total-Lagrangian mixed method with Riemann dissipation (000_e9ec29e1bde7947d.txt)");
+    list_line("  evolved = \"pF\"", "linear momentum p and deformation gradient F");
+    list_line("  evolved = \"pFJ\"", "p, F and Jacobian J");
+    list_line("  evolved = \"pFHJ\"", "p, F, cofactor H and J");
+    return true;
 }
 
 static bool list_materials(struct solver_error *error)
 {
     (void)error;
-    return list_key("materials", "material.model");
+    (void)printf("materials\n");
+    for (const struct solver_material_model *model = solver_material_models(); model->name != NULL; model++) {
+        list_line(model->name, model->summary);
+    }
+    return true;
 }
 
 static bool list_stencils(struct solver_error *error)
 {
     (void)error;
-    return list_key("stencils", "stencil");
+    (void)printf("stencils\n");
+    for (const struct solver_stencil_builder *builder = solver_stencil_builders(); builder->name != NULL; builder++) {
+        list_line(builder->name, builder->summary);
+    }
+    return true;
 }
 
 static bool list_integrators(struct solver_error *error)
 {
     (void)error;
-    return list_key("integrators", "integrator");
+    (void)printf("integrators\n");
+    for (const struct solver_integrator *method = solver_integrators(); method->name != NULL; method++) {
+        list_line(method->name, method->summary);
+    }
+    return true;
 }
 
 static bool list_keys(struct solver_error *error)
