@@ -1,6 +1,7 @@
 /* Explicit Runge-Kutta methods in two-register form. Stage s, with R the rate at U and time t + time * dt:
  *     S += accumulate R
- *     U <- old U0 + keep U + dt (rate R + sum S) */
+ *     U <- old U0 + keep U + dt (rate R + sum S)
+ * The first stage is at time 0 with old = 1, keep = 0, sum = 0, and no later one is at time 0. */
 #ifndef SOLVER_INTEGRATOR_H
 #define SOLVER_INTEGRATOR_H
 

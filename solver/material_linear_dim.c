@@ -5,55 +5,56 @@
 
 #include <math.h>
 
-static struct tensor deviator(struct tensor F, double *mean)
+/* F is [DIM] columns or rows of the given stride: Hooke's law is the same for F and its transpose. */
+static inline double mean_strain(const double *F, int stride)
 {
-    struct tensor D = F;
+    double sum = 0.0;
     for (int I = 0; I < DIM; I++) {
-        D.column[I][I] -= 1.0;
+        sum += F[I * stride + I] - 1.0;
     }
-    *mean = trace(D) / 3.0;
-    struct tensor T = transpose(D);
+    return sum / 3.0;
+}
+
+/* J NULL: 1 + tr(F - I) */
+static inline void hooke(const struct solver_material_constants *material, const double *F, int stride, const double *J,
+                         double *P)
+{
+    double mean = mean_strain(F, stride);
+    double pressure = material->kappa * (J != NULL ? *J - 1.0 : 3.0 * mean);
     for (int I = 0; I < DIM; I++) {
-        D.column[I] = 0.5 * (D.column[I] + T.column[I]);
-        D.column[I][I] -= *mean;
+        P[I * stride + I] = 2.0 * material->mu * (F[I * stride + I] - 1.0 - mean) + pressure;
+        for (int i = 0; i < I; i++) {
+            double shear = material->mu * (F[I * stride + i] + F[i * stride + I]);
+            P[I * stride + i] = shear;
+            P[i * stride + I] = shear;
+        }
     }
-    return D;
 }
 
 static double energy(const struct solver_material_constants *material, const double *F, const double *H, double J)
 {
     (void)H;
-    double mean;
-    struct tensor e = deviator(from_rows(F), &mean);
-    double out_of_plane = (3 - DIM) * mean * mean;
-    return material->mu * (contract(e, e) + out_of_plane) + 0.5 * material->kappa * (J - 1.0) * (J - 1.0);
-}
-
-static inline struct tensor stress_of(const struct solver_material_constants *material, struct tensor F,
-                                      const double *J)
-{
-    double mean;
-    struct tensor P = deviator(F, &mean);
-    double pressure = material->kappa * (J != NULL ? *J - 1.0 : 3.0 * mean);
-    for (int I = 0; I < DIM; I++) {
-        P.column[I] *= 2.0 * material->mu;
-        P.column[I][I] += pressure;
+    double mean = mean_strain(F, DIM);
+    double square = (3 - DIM) * mean * mean;
+    for (int i = 0; i < DIM; i++) {
+        for (int I = 0; I < DIM; I++) {
+            double e = 0.5 * (F[i * DIM + I] + F[I * DIM + i]) - (i == I ? 1.0 + mean : 0.0);
+            square += e * e;
+        }
     }
-    return P;
+    return material->mu * square + 0.5 * material->kappa * (J - 1.0) * (J - 1.0);
 }
 
 static void stress(const struct solver_material_constants *material, const double *F, const double *H, double J,
                    double *P)
 {
     (void)H;
-    to_rows(stress_of(material, from_rows(F), &J), P);
+    hooke(material, F, DIM, &J, P);
 }
 
 static double stress_normal(const struct solver_material_constants *material, const double *F, double J)
 {
-    double mean;
-    (void)deviator(from_rows(F), &mean);
-    return -2.0 * material->mu * mean + material->kappa * (J - 1.0);
+    return -2.0 * material->mu * mean_strain(F, DIM) + material->kappa * (J - 1.0);
 }
 
 static void tangent(const struct solver_material_constants *material, const double *F, double *A)
@@ -86,8 +87,7 @@ static void stress_range(const struct solver_material_constants *material, size_
 {
     (void)H;
     for (size_t a = begin; a < end; a++) {
-        struct tensor at = load_tensor(F + a * DIM * LANES);
-        store_tensor(P + a * DIM * LANES, stress_of(material, at, J != NULL ? J + a : NULL));
+        hooke(material, F + a * DIM * LANES, LANES, J != NULL ? J + a : NULL, P + a * DIM * LANES);
     }
 }
 

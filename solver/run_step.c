@@ -44,7 +44,10 @@ bool solver_run_check(struct solver_run *run, struct solver_error *error)
     }
     const double *X = run->cloud->X + broken * (size_t)run->cloud->dim;
     size_t lanes = run->loops->lanes;
-    bool momentum = !isfinite(run->work.p[broken * lanes]);
+    double square = 0.0; /* as the loops do: what overflows when squared has grown beyond all bounds */
+    for (size_t i = 0; i < (size_t)run->cloud->dim; i++) {
+        square += run->work.p[broken * lanes + i] * run->work.p[broken * lanes + i];
+    }
     double J;
     if (run->work.J != NULL) {
         J = run->work.J[broken];
@@ -57,10 +60,10 @@ bool solver_run_check(struct solver_run *run, struct solver_error *error)
                        "evolved = \"pFHJ\"",
                        run->step, run->time, broken, X[0], run->cloud->dim > 1 ? X[1] : 0.0,
                        run->cloud->dim > 2 ? X[2] : 0.0,
-                       momentum       ? "linear momentum p is not finite"
-                       : !isfinite(J) ? "deformation gradient F or Jacobian J is not finite"
-                       : J <= 0.0     ? "the particle is turned inside out, Jacobian J <= 0"
-                                      : "deformation gradient F is not finite");
+                       !isfinite(square)               ? "linear momentum p is not finite"
+                       : !isfinite(J)                  ? "deformation gradient F or Jacobian J is not finite"
+                       : !run->work.frozen && J <= 0.0 ? "the particle is turned inside out, Jacobian J <= 0"
+                                                       : "deformation gradient F is not finite");
 }
 
 /* Rates of the present state at time t. */

@@ -193,6 +193,12 @@ size_t solver_stencil_bytes(const struct solver_stencil *stencil)
            stencil->face_point_count * sizeof *stencil->face_point;
 }
 
+/* Keeps the larger of two, and a NaN, which fmax would lose. */
+static double worse(double worst, double next)
+{
+    return isnan(worst) || worst >= next ? worst : next;
+}
+
 struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil *stencil,
                                                      const struct solver_cloud *cloud)
 {
@@ -201,7 +207,7 @@ struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil
     double largest = 0.0;
     for (size_t ab = 0; ab < stencil->pairs; ab++) {
         for (size_t axis = 0; axis < dim; axis++) {
-            largest = fmax(largest, fabs(solver_stencil_C(stencil, ab)[axis]));
+            largest = worse(largest, fabs(solver_stencil_C(stencil, ab)[axis]));
         }
     }
     size_t next_face = 0;
@@ -218,7 +224,7 @@ struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil
             const double *C = solver_stencil_C(stencil, ab);
             const double *opposite = solver_stencil_C(stencil, solver_graph_find(&stencil->graph, b, a));
             for (size_t axis = 0; axis < dim; axis++) {
-                worst.antisymmetry = fmax(worst.antisymmetry, fabs(C[axis] + opposite[axis]) / largest);
+                worst.antisymmetry = worse(worst.antisymmetry, fabs(C[axis] + opposite[axis]) / largest);
                 closure[axis] += C[axis];
                 for (size_t i = 0; i < dim; i++) {
                     linear[i][axis] += 0.5 * (cloud->X[b * dim + i] - cloud->X[a * dim + i]) * C[axis] / stencil->V[a];
@@ -226,9 +232,9 @@ struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil
             }
         }
         for (size_t i = 0; i < dim; i++) {
-            worst.closure = fmax(worst.closure, fabs(closure[i]) / largest);
+            worst.closure = worse(worst.closure, fabs(closure[i]) / largest);
             for (size_t axis = 0; axis < dim; axis++) {
-                worst.linear = fmax(worst.linear, fabs(linear[i][axis] - (i == axis ? 1.0 : 0.0)));
+                worst.linear = worse(worst.linear, fabs(linear[i][axis] - (i == axis ? 1.0 : 0.0)));
             }
         }
     }
