@@ -25,7 +25,8 @@ static const char block[] =
     "n = 4\n"
     "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2 }\n"
     "t_end = 1\n"
-    "stencil, integrator, cfl, evolved = 'sbp2', 'tvd-rk2', 0.3, 'pFHJ'\n";
+    "stencil, integrator, cfl, evolved = 'sbp2', 'tvd-rk2', 0.3, 'pFHJ'\n"
+    "threads = 1\n";
 
 /* A free body that deforms smoothly and drifts. */
 static const char smooth_motion[] = "initial = { velocity = function(X, Y, Z)\n"
