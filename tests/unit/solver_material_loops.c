@@ -159,6 +159,35 @@ static void stress_range(const struct sample *sample)
     }
 }
 
+/* U'(J) against the mean stress of a spherical deformation, where nothing else acts: P = U'(J) H, H = J^(2/3) 1. */
+static void volumetric_range(const struct sample *sample)
+{
+    enum { COUNT = 9, BEGIN = 2, END = 7 };
+    double J[COUNT];
+    double pressure[COUNT] = {0};
+    for (size_t a = 0; a < COUNT; a++) {
+        J[a] = uniform(0.3, 3.0);
+    }
+    sample->material->volumetric_range(&sample->constants, BEGIN, END, J, pressure);
+    for (size_t a = 0; a < COUNT; a++) {
+        double stretch = cbrt(J[a]);
+        double area = sample->material->linear ? 1.0 : stretch * stretch;
+        double F[9];
+        double H[9];
+        double P[9];
+        unit_tensor(3, F);
+        unit_tensor(3, H);
+        for (size_t i = 0; i < 3; i++) {
+            F[4 * i] = stretch;
+            H[4 * i] = area;
+        }
+        sample->in_3d->stress(&sample->constants, F, H, J[a], P);
+        bool inside = a >= BEGIN && a < END;
+        expect(sample, "volumetric stress", fabs(pressure[a] - (inside ? P[4] / area : 0.0)),
+               inside ? 1e-14 * sample->modulus : 0.0);
+    }
+}
+
 static void test_speeds(void)
 {
     each(wave_speeds);
@@ -174,12 +203,18 @@ static void test_range(void)
     each(stress_range);
 }
 
+static void test_volumetric(void)
+{
+    each(volumetric_range);
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
         {"wave speeds are those of the acoustic tensor", test_speeds},
         {"the fastest speed is bounded, exactly at rest", test_fastest},
         {"the hot loop is the pointwise stress", test_range},
+        {"the volumetric stress is that of a spherical deformation", test_volumetric},
     };
     return unit_main("material loops", tests, sizeof tests / sizeof *tests);
 }
