@@ -16,7 +16,8 @@ struct oracle_parameter {
     double typical;              /* an admissible value: the source's own */
 };
 
-/* The exact state at one place and time; tensors row by row, always 3D. */
+/* The exact state at one place and time; tensors row by row, always 3D. Where a field jumps it has the value of one of
+ * the sides; an oracle that does not reach so late a time says NaN. */
 struct oracle_state {
     double u[3]; /* displacement [m] */
     double v[3]; /* velocity [m/s] */
@@ -25,7 +26,25 @@ struct oracle_state {
     double P[9]; /* first Piola-Kirchhoff stress [Pa] */
 };
 
+/* Smooth: nothing to look out for. Kinks: velocity and stress are continuous, their derivatives are not. Jumps: at
+ * least one of velocity, momentum, deformation gradient and stress is not. */
 enum oracle_smoothness { ORACLE_SMOOTH, ORACLE_KINKS, ORACLE_JUMPS };
+
+/* A place X [m] along the axis of a one-dimensional body that moves at `speed` [m/s, to the right positive; 0 for an
+ * interface of materials] and is not smooth. `jump` is v just right of it less v just left of it [m/s]. */
+struct oracle_front {
+    double X, speed, jump;
+    enum oracle_smoothness smoothness; /* ORACLE_KINKS or ORACLE_JUMPS */
+};
+enum { ORACLE_FRONTS = 2048 };
+#define ORACLE_TOO_MANY_FRONTS ((size_t)-1)
+
+/* A number the solution is known by, for gates and reports: "reflection", "contact time". */
+struct oracle_figure {
+    const char *name, *unit, *help;
+    double value;
+};
+enum { ORACLE_FIGURES = 16 };
 
 /* Result of a self-check: one line per law, each a dimensionless residual and the bound it must stay under. */
 struct oracle_check {
@@ -41,14 +60,19 @@ struct oracle_kind {
     const char *summary; /* one line */
     const char *source;  /* paper file and equation */
     int dim;
-    enum oracle_smoothness smoothness;
+    enum oracle_smoothness smoothness;        /* of the worst front there may be */
     const struct oracle_parameter *parameter; /* ends with a NULL name */
     /* Values in the order of `parameter`, already within their intervals. */
     bool (*create)(const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
     void (*destroy)(struct oracle *oracle);
     void (*state)(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state);
-    /* Total energies of the body [J]. */
+    /* Total energies of the body [J]; of a one-dimensional body per unit of its cross-section [J/m^2]. */
     void (*energy)(const struct oracle *oracle, double t, double *kinetic, double *strain);
+    /* All fronts within the body at time t, ordered by X, and how many there are. ORACLE_TOO_MANY_FRONTS: more than
+     * there is room for, or the oracle does not reach so late a time. NULL if, and only if, the kind is smooth. */
+    size_t (*fronts)(const struct oracle *oracle, double t, struct oracle_front front[ORACLE_FRONTS]);
+    /* Fills in the figures and returns how many there are; NULL: none. */
+    size_t (*figures)(const struct oracle *oracle, struct oracle_figure figure[ORACLE_FIGURES]);
     /* Fills up to `size` lines; returns how many there are. Every line must be able to fail. Fields and energies are
      * taken from `kind`, so that a kind with a spoiled formula is caught by the check of the true one. */
     size_t (*check)(const struct oracle_kind *kind, const struct oracle *oracle, struct oracle_check *line,
