@@ -1,7 +1,8 @@
 /* Explicit Runge-Kutta methods in two-register form. Stage s, with R the rate at U and time t + time * dt:
  *     S += accumulate R
- *     U <- old U0 + keep U + dt (rate R + sum S)
- * The first stage is at time 0 with old = 1, keep = 0, sum = 0, and no later one is at time 0. */
+ *     U <- U0 + keep (U - U0) + dt (rate R + sum S)
+ * The first stage is at time 0 with keep = 0, sum = 0, and no later one is at time 0. What has no rate stays as it is,
+ * to the bit. */
 #ifndef SOLVER_INTEGRATOR_H
 #define SOLVER_INTEGRATOR_H
 
@@ -11,7 +12,7 @@ enum { SOLVER_STAGES = 4 };
 
 struct solver_stage {
     double time; /* of the stage, as a fraction of the step */
-    double old, keep, rate;
+    double keep, rate;
     double accumulate, sum;
     double weight; /* of the stage in the quadrature over the step */
 };

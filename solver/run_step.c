@@ -114,11 +114,11 @@ static void update_slice(const struct solver_state *state, const struct solver_s
         }
     } else if (sum == NULL) {
         for (size_t i = first; i < last; i++) {
-            U[i] = stage->old * start[i] + stage->keep * U[i] + dt * stage->rate * rate[i];
+            U[i] = start[i] + stage->keep * (U[i] - start[i]) + dt * stage->rate * rate[i];
         }
     } else {
         for (size_t i = first; i < last; i++) {
-            U[i] = stage->old * start[i] + stage->keep * U[i] + dt * (stage->rate * rate[i] + stage->sum * sum[i]);
+            U[i] = start[i] + stage->keep * (U[i] - start[i]) + dt * (stage->rate * rate[i] + stage->sum * sum[i]);
             sum[i] += stage->accumulate * rate[i];
         }
     }

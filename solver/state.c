@@ -27,7 +27,7 @@ bool solver_state_create(struct solver_state *state, size_t count, int dim, cons
     struct binding derived[5];
     size_t evolved_count = 0;
     size_t derived_count = 0;
-    *state = (struct solver_state){.count = count};
+    *state = (struct solver_state){.count = count, .lanes = lanes};
 
     evolved[evolved_count++] = (struct binding){&work->p, &work->p_rate, declare(state, "p", lanes, true)};
     evolved[evolved_count++] = (struct binding){&work->x, &work->x_rate, declare(state, "x", lanes, true)};
@@ -102,7 +102,7 @@ void solver_state_free(struct solver_state *state)
 
 double solver_state_bytes_per_particle(const struct solver_state *state, bool with_integrator)
 {
-    size_t doubles = 0;
+    size_t doubles = state->lanes; /* reference positions */
     for (size_t i = 0; i < state->field_count; i++) {
         size_t copies = state->field[i].evolved && with_integrator ? (state->sum != NULL ? 4 : 3) : 1;
         doubles += copies * state->field[i].width;

@@ -18,7 +18,7 @@ struct solver_field {
 enum { SOLVER_STATE_FIELDS = 12 };
 
 struct solver_state {
-    size_t count;
+    size_t count, lanes;
     size_t field_count;
     struct solver_field field[SOLVER_STATE_FIELDS];
     size_t evolved;    /* doubles of the evolved block */

@@ -6,7 +6,10 @@ set -euo pipefail
 declare -A skipped=(
   [test_oracles_mutations]="the self-check of test_oracles_conformance, again for each wrong formula: 50 s"
   [test_render_draw]="most of it is OSMesa, with machine code of its own making: 50 s"
+  [test_solver_run_threads]="the runs of test_solver_run, three times each: minutes"
+  [test_solver_run_momentum]="a thousand steps of each run of test_solver_run: 90 s"
 )
+
 memcheck() {
   local name=${1##*/}
   timeout 120 valgrind --quiet --error-exitcode=99 --leak-check=full --show-leak-kinds=definite \
