@@ -77,7 +77,8 @@ static bool run_level(struct work *work, size_t index, struct solver_error *erro
     }
     level.facts = solver_run_facts(run);
     bool done = solver_run_output(run, &output, error) &&
-                verify_norms_measure(&output, work->truth.kind, work->truth.oracle, level.error, error);
+                verify_norms_measure(&output, solver_run_history(run), work->truth.kind, work->truth.oracle,
+                                     level.error, error);
     if (done) {
         verify_study_add(&work->study, &level);
         verify_terminal_level(stdout, &work->study, work->shown, work->shown_count);
@@ -86,7 +87,8 @@ static bool run_level(struct work *work, size_t index, struct solver_error *erro
         const struct solver_history *history = solver_run_history(run);
         work->study.first = history->totals[0];
         work->study.last = history->totals[history->count - 1];
-        done = verify_record(scene, run, work->folder, scene->name, work->options->line, work->study.record, error) &&
+        done = verify_study_trace(&work->study, history, error) &&
+               verify_record(scene, run, work->folder, scene->name, work->options->line, work->study.record, error) &&
                draw(work, error);
     }
     solver_run_free(run);
@@ -204,6 +206,7 @@ int verify_command_verify(const struct verify_options *options)
     work->options = options;
     bool passed = false;
     bool done = study(work, &passed, &error);
+    verify_study_free(&work->study);
     verify_truth_free(&work->truth);
     solver_scene_free(work->scene);
     free(work);

@@ -11,15 +11,17 @@
     "relative L2 error of the " field, "absolute L2 error of the " field, "relative max error of the " field,          \
         "absolute max error of the " field
 
-static const char *const name_table[VERIFY_ERRORS] = {NAMES("p"), NAMES("P"), NAMES("P_all"), NAMES("u"), NAMES("F")};
-static const char *const unit_table[VERIFY_ERRORS] = {UNITS("kg/(m^2 s)"), UNITS("Pa"), UNITS("Pa"), UNITS("m"),
-                                                      UNITS("-")};
+static const char *const name_table[VERIFY_ERRORS] = {NAMES("p"), NAMES("P"), NAMES("P_all"),
+                                                      NAMES("u"), NAMES("F"), NAMES("probes")};
+static const char *const unit_table[VERIFY_ERRORS] = {UNITS("kg/(m^2 s)"), UNITS("Pa"), UNITS("Pa"),
+                                                      UNITS("m"),          UNITS("-"),  UNITS("m")};
 static const char *const meaning_table[VERIFY_ERRORS] = {
     MEANINGS("linear momentum, all components"),
     MEANINGS("first Piola-Kirchhoff stress, normal components"),
     MEANINGS("first Piola-Kirchhoff stress, all components"),
     MEANINGS("displacement, all components"),
     MEANINGS("deformation gradient less the identity, all components"),
+    MEANINGS("displacement at the probes over time, all components"),
 };
 
 /* Unlike fmax, keeps a NaN. */
@@ -115,6 +117,40 @@ static struct verify_norms measure(enum verify_field field, const struct solver_
     return verify_norms_field(output->cloud->count, width, output->V, computed, exact);
 }
 
+static void keep(double error[VERIFY_ERRORS], enum verify_field field, struct verify_norms norms)
+{
+    error[4 * field] = norms.relative_l2;
+    error[4 * field + 1] = norms.absolute_l2;
+    error[4 * field + 2] = norms.relative_max;
+    error[4 * field + 3] = norms.absolute_max;
+}
+
+/* Rows of the history times probes, each a point in time and place. */
+static bool measure_probes(const struct solver_history *history, const struct oracle_kind *kind,
+                           const struct oracle *oracle, double error[VERIFY_ERRORS])
+{
+    size_t count = history->count * history->probe_count;
+    if (count == 0) {
+        keep(error, VERIFY_PROBES, (struct verify_norms){NAN, NAN, NAN, NAN});
+        return true;
+    }
+    double *exact = calloc(count, 4 * sizeof *exact);
+    if (exact == NULL) {
+        return false;
+    }
+    double *weight = exact + 3 * count;
+    for (size_t i = 0; i < count; i++) {
+        struct oracle_state state;
+        kind->state(oracle, history->probe_X[i % history->probe_count], history->totals[i / history->probe_count].time,
+                    &state);
+        memcpy(exact + 3 * i, state.u, sizeof state.u);
+        weight[i] = 1.0;
+    }
+    keep(error, VERIFY_PROBES, verify_norms_field(count, 3, weight, history->probe_u, exact));
+    free(exact);
+    return true;
+}
+
 static void measure_all(const struct solver_output *output, const struct oracle_kind *kind, const struct oracle *oracle,
                         struct oracle_state *state, double *computed, double *exact, double error[VERIFY_ERRORS])
 {
@@ -124,23 +160,20 @@ static void measure_all(const struct solver_output *output, const struct oracle_
         memcpy(X, output->cloud->X + a * dim, dim * sizeof *X);
         kind->state(oracle, X, output->time, &state[a]);
     }
-    for (size_t field = 0; field < VERIFY_FIELDS; field++) {
-        struct verify_norms norms = measure((enum verify_field)field, output, state, computed, exact);
-        error[4 * field] = norms.relative_l2;
-        error[4 * field + 1] = norms.absolute_l2;
-        error[4 * field + 2] = norms.relative_max;
-        error[4 * field + 3] = norms.absolute_max;
+    for (size_t field = 0; field < VERIFY_PROBES; field++) {
+        keep(error, (enum verify_field)field, measure((enum verify_field)field, output, state, computed, exact));
     }
 }
 
-bool verify_norms_measure(const struct solver_output *output, const struct oracle_kind *kind,
-                          const struct oracle *oracle, double error[VERIFY_ERRORS], struct solver_error *why)
+bool verify_norms_measure(const struct solver_output *output, const struct solver_history *history,
+                          const struct oracle_kind *kind, const struct oracle *oracle, double error[VERIFY_ERRORS],
+                          struct solver_error *why)
 {
     size_t count = output->cloud->count;
     struct oracle_state *state = calloc(count, sizeof *state);
     double *computed = calloc(count, 9 * sizeof *computed);
     double *exact = calloc(count, 9 * sizeof *exact);
-    bool done = state != NULL && computed != NULL && exact != NULL;
+    bool done = state != NULL && computed != NULL && exact != NULL && measure_probes(history, kind, oracle, error);
     if (done) {
         measure_all(output, kind, oracle, state, computed, exact, error);
     } else {

@@ -28,16 +28,18 @@ struct verify_norms verify_norms_field(size_t count, size_t width, const double 
 
 /* Fields that are compared. */
 enum verify_field {
-    VERIFY_p,     /* linear momentum, all components */
-    VERIFY_P,     /* normal components of the first Piola-Kirchhoff stress */
-    VERIFY_P_ALL, /* all components of it */
-    VERIFY_u,     /* displacement, all components */
-    VERIFY_F,     /* F - I, all components: the deviation, since |F| itself is 1 and hides it */
+    VERIFY_p,      /* linear momentum, all components */
+    VERIFY_P,      /* normal components of the first Piola-Kirchhoff stress */
+    VERIFY_P_ALL,  /* all components of it */
+    VERIFY_u,      /* displacement, all components */
+    VERIFY_F,      /* F - I, all components: the deviation, since |F| itself is 1 and hides it */
+    VERIFY_PROBES, /* displacement at the probes, all components; sums over rows of the time history instead of
+                      particles, each with weight 1, so that "probes_abs" is the root mean square error over time */
     VERIFY_FIELDS
 };
 
-/* Errors have names: "p", "P", "P_all", "u", "F" are relative L2 norms; with "_abs" absolute L2, with "_max" relative
- * max, with "_abs_max" absolute max. */
+/* Errors have names: "p", "P", "P_all", "u", "F", "probes" are relative L2 norms; with "_abs" absolute L2, with "_max"
+ * relative max, with "_abs_max" absolute max. */
 enum { VERIFY_ERRORS = 4 * VERIFY_FIELDS };
 
 const char *verify_error_name(size_t error);
@@ -48,8 +50,10 @@ const char *verify_error_meaning(size_t error);
 /* VERIFY_ERRORS if there is none of that name. */
 size_t verify_error_find(const char *name);
 
-/* All errors of a run's present state against an oracle, at the state's time. False if there is no memory. */
-bool verify_norms_measure(const struct solver_output *output, const struct oracle_kind *kind,
-                          const struct oracle *oracle, double error[VERIFY_ERRORS], struct solver_error *why);
+/* All errors of a run against an oracle: of the present state at its time, and of the history; without probes those of
+ * the probes are NaN. False if there is no memory. */
+bool verify_norms_measure(const struct solver_output *output, const struct solver_history *history,
+                          const struct oracle_kind *kind, const struct oracle *oracle, double error[VERIFY_ERRORS],
+                          struct solver_error *why);
 
 #endif

@@ -26,5 +26,7 @@ bool verify_html(FILE *file, const struct verify_study *study, const size_t *sho
 /* The convergence plot of one error as an SVG element: measured and published values over the spacing, both axes
  * logarithmic, with lines of whole orders for comparison. */
 void verify_plot(FILE *file, const struct verify_study *study, size_t error);
+/* The displacement of a probe over time as an SVG element, computed and exact. */
+void verify_plot_trace(FILE *file, const struct verify_study *study, const struct verify_trace *trace);
 
 #endif

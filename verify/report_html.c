@@ -245,6 +245,18 @@ static void quantities(FILE *file, const struct verify_study *study)
                   facts->setup_seconds, facts->threads);
 }
 
+static void traces(FILE *file, const struct verify_study *study)
+{
+    if (study->trace_count == 0) {
+        return;
+    }
+    (void)fprintf(file, "<h2>Displacement at the probes, finest level</h2><div class=\"row\">\n");
+    for (size_t i = 0; i < study->trace_count; i++) {
+        verify_plot_trace(file, study, &study->trace[i]);
+    }
+    (void)fprintf(file, "</div>\n");
+}
+
 bool verify_html(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count,
                  struct solver_error *error)
 {
@@ -257,6 +269,7 @@ bool verify_html(FILE *file, const struct verify_study *study, const size_t *sho
         }
         (void)fprintf(file, "</div>\n");
         gates(file, &study->gates);
+        traces(file, study);
         (void)fprintf(file, "<h2>Pictures</h2><div class=\"row\">\n");
         if (!picture(file, study->picture, "computed, finest level", error) ||
             !picture(file, study->exact_picture, "exact", error)) {

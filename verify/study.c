@@ -1,6 +1,7 @@
 #include "verify/study.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 double verify_order(double e1, double h1, double e2, double h2)
@@ -22,6 +23,47 @@ void verify_study_add(struct verify_study *study, const struct verify_level *lev
                                                                 added->error[i], added->facts.spacing);
     }
     study->level_count++;
+}
+
+static int liveliest(const struct solver_history *history, size_t probe)
+{
+    double reach[3] = {0};
+    for (size_t row = 0; row < history->count; row++) {
+        for (int axis = 0; axis < 3; axis++) {
+            reach[axis] =
+                fmax(reach[axis], fabs(history->probe_u[(row * history->probe_count + probe) * 3 + (size_t)axis]));
+        }
+    }
+    return reach[0] >= reach[1] && reach[0] >= reach[2] ? 0 : reach[1] >= reach[2] ? 1 : 2;
+}
+
+bool verify_study_trace(struct verify_study *study, const struct solver_history *history, struct solver_error *error)
+{
+    for (size_t probe = 0; probe < history->probe_count; probe++) {
+        struct verify_trace *trace = &study->trace[study->trace_count];
+        *trace = (struct verify_trace){.axis = liveliest(history, probe), .count = history->count};
+        trace->time = calloc(history->count, 2 * sizeof *trace->time);
+        if (trace->time == NULL) {
+            return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the traces of %zu probes", history->probe_count);
+        }
+        study->trace_count++;
+        trace->displacement = trace->time + history->count;
+        memcpy(trace->name, history->probe_name[probe], sizeof trace->name);
+        memcpy(trace->X, history->probe_X[probe], sizeof trace->X);
+        for (size_t row = 0; row < history->count; row++) {
+            trace->time[row] = history->totals[row].time;
+            trace->displacement[row] = history->probe_u[(row * history->probe_count + probe) * 3 + (size_t)trace->axis];
+        }
+    }
+    return true;
+}
+
+void verify_study_free(struct verify_study *study)
+{
+    for (size_t i = 0; i < study->trace_count; i++) {
+        free(study->trace[i].time);
+    }
+    study->trace_count = 0;
 }
 
 bool verify_study_judge(struct verify_study *study, struct solver_error *error)
@@ -60,10 +102,11 @@ size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS
             const char *name = scene->published[i].value[j].name;
             want(wanted, verify_error_find(name));
             if (verify_error_find(name) == VERIFY_ERRORS) {
-                (void)solver_fail(error, SOLVER_BAD_INPUT,
-                                  "%s: published: there is no error called \"%s\"; there are p, P, P_all, u, F, each "
-                                  "also with _abs, _max or _abs_max",
-                                  scene->path, name);
+                (void)solver_fail(
+                    error, SOLVER_BAD_INPUT,
+                    "%s: published: there is no error called \"%s\"; there are p, P, P_all, u, F, probes, each "
+                    "also with _abs, _max or _abs_max",
+                    scene->path, name);
                 return 0;
             }
         }

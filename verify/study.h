@@ -19,6 +19,15 @@ struct verify_level {
     double rate[VERIFY_ERRORS]; /* observed order from the level before to this one; NaN at the first */
 };
 
+/* Displacement of a probe over time, of the component that moves most. */
+struct verify_trace {
+    char name[SOLVER_NAME];
+    double X[3]; /* [m] */
+    int axis;    /* 0, 1, 2 */
+    size_t count;
+    double *time, *displacement; /* [count] each, one block that `time` owns; [s], [m] */
+};
+
 struct verify_study {
     const struct solver_scene *scene; /* as loaded for the finest level done */
     const struct verify_truth *truth;
@@ -26,6 +35,8 @@ struct verify_study {
     struct verify_level level[SOLVER_LEVELS];
     struct solver_totals first, last; /* conserved quantities at the finest level, at the start and the end */
     struct verify_gates gates;
+    size_t trace_count;
+    struct verify_trace trace[SOLVER_PROBES]; /* at the finest level */
     /* Files written, "" where not. */
     char record[VERIFY_PATH], picture[VERIFY_PATH], exact_picture[VERIFY_PATH];
 };
@@ -36,6 +47,10 @@ double verify_order(double e1, double h1, double e2, double h2);
 
 /* Adds a level that has n, facts and errors: fills in its time per particle-step and its observed orders. */
 void verify_study_add(struct verify_study *study, const struct verify_level *level);
+
+/* Keeps the traces of a run's probes; verify_study_free gives them back. */
+bool verify_study_trace(struct verify_study *study, const struct solver_history *history, struct solver_error *error);
+void verify_study_free(struct verify_study *study);
 
 /* Judges the scene's gates on the finest level. */
 bool verify_study_judge(struct verify_study *study, struct solver_error *error);

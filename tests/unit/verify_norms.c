@@ -89,9 +89,11 @@ static void components_counted(void)
     /* p off by 1 in y; a shear stress off by 2, a normal stress by 3; F off by 0.5; u exact at t = 1. */
     const double u[] = {1, 1}, p[] = {3, 5}, F[] = {2, 0.5, 0, 1}, P[] = {4, 2, 6, 5};
     const struct solver_output output = {.cloud = &cloud, .time = 1, .V = V, .u = u, .p = p, .F = F, .P = P};
+    const struct solver_history none = {.count = 1};
     double error[VERIFY_ERRORS];
     struct solver_error why;
-    CU_ASSERT_TRUE_FATAL(verify_norms_measure(&output, &kind, NULL, error, &why));
+    CU_ASSERT_TRUE_FATAL(verify_norms_measure(&output, &none, &kind, NULL, error, &why));
+    CU_ASSERT(isnan(error[verify_error_find("probes")])); /* nothing was recorded, so nothing is said */
     check(error[verify_error_find("p")], 1.0 / 5);
     check(error[verify_error_find("P")], 3 / sqrt(26));
     check(error[verify_error_find("P_all")], sqrt(13.0 / 46));
@@ -99,6 +101,31 @@ static void components_counted(void)
     check(error[verify_error_find("F")], 0.5); /* against F - I, whose size is 1 */
     check(error[verify_error_find("F_abs_max")], 0.5);
     CU_ASSERT(error[verify_error_find("u")] == 0);
+}
+
+/* Two probes at X = 3 and X = 0, three times: exact u = (X, t, 0). */
+static void probes_over_time(void)
+{
+    const struct oracle_kind kind = {.state = constant_state};
+    double X[] = {1, 0}, V[] = {2};
+    struct solver_cloud cloud = {.dim = 2, .count = 1, .X = X};
+    const double field[4] = {0};
+    const struct solver_output output = {.cloud = &cloud, .V = V, .u = field, .p = field, .F = field, .P = field};
+    struct solver_totals totals[] = {{.time = 0}, {.time = 1}, {.time = 2}};
+    double place[][3] = {{3, 0, 0}, {0, 0, 0}};
+    double u[] = {3, 0, 0, 0, 0, 0, 3, 1, 0, 0, 1.5, 0, 3, 2, 0, 2, 2, 0}; /* off by 0.5 at t = 1, by 2 at t = 2 */
+    const struct solver_history history = {
+        .count = 3, .totals = totals, .probe_count = 2, .probe_X = place, .probe_u = u};
+    double error[VERIFY_ERRORS];
+    struct solver_error why;
+    CU_ASSERT_TRUE_FATAL(verify_norms_measure(&output, &history, &kind, NULL, error, &why));
+    check(error[verify_error_find("probes_abs")], sqrt((0.25 + 4) / 6));
+    check(error[verify_error_find("probes")], sqrt((0.25 + 4) / (9 + 10 + 1 + 13 + 4)));
+    check(error[verify_error_find("probes_abs_max")], 2);
+    check(error[verify_error_find("probes_max")], 2 / sqrt(13));
+    u[3] = NAN;
+    CU_ASSERT_TRUE_FATAL(verify_norms_measure(&output, &history, &kind, NULL, error, &why));
+    CU_ASSERT(isnan(error[verify_error_find("probes")]) && isnan(error[verify_error_find("probes_abs_max")]));
 }
 
 static void names(void)
@@ -125,6 +152,7 @@ int main(void)
         {"NaN shows", nan_shows},
         {"infinity shows", infinity_is_no_small_error},
         {"components counted", components_counted},
+        {"probes over time", probes_over_time},
         {"names and units", names},
     };
     return unit_main("norms", tests, sizeof tests / sizeof *tests);
