@@ -12,7 +12,7 @@ static const char style[] =
     "th{font-weight:600}th:first-child,td:first-child{text-align:left}"
     ".pass{color:#11632f}.fail{color:#a40e26;font-weight:600}"
     ".verdict{font-size:1.15rem;padding:.5rem 1rem;border-left:6px solid;margin:1.2rem 0;background:#f6f8fa}"
-    ".row{display:flex;flex-wrap:wrap;gap:1rem}.row>*{flex:1 1 26rem;min-width:0;margin:0}"
+    ".row{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(26rem,100%),1fr));gap:1rem}.row>*{margin:0}"
     "img{width:100%;height:auto}svg{font:12px system-ui,sans-serif}.note{color:#57606a;font-size:.9rem}"
     "pre{background:#f6f8fa;padding:1rem;overflow:auto;font-size:.85rem}"
     "svg .grid{stroke:#e3e7eb}svg .frame{fill:none;stroke:#57606a}"
