@@ -5,7 +5,9 @@
 #include <string.h>
 
 /* One line per oracle: the name of its struct oracle_kind. */
-#define ORACLE_TABLE(ENTRY) ENTRY(oracle_swinging_cube)
+#define ORACLE_TABLE(ENTRY)                                                                                            \
+    ENTRY(oracle_cable)                                                                                                \
+    ENTRY(oracle_swinging_cube)
 
 #define DECLARE(kind) extern const struct oracle_kind kind;
 #define ADDRESS(kind) &kind,

@@ -22,17 +22,26 @@ struct self_check_scale {
     double stress;         /* p-wave modulus times gradient [Pa]: terms may cancel in P, their round-off does not */
 };
 
+/* A box of one material. */
+struct self_check_body {
+    double lower[3], upper[3]; /* axes from kind->dim on are not used [m] */
+    double bulk, mu, rho;      /* [Pa], [Pa], [kg/m^3] */
+};
+
 struct self_check {
     const struct oracle_kind *kind;
     const struct oracle *oracle;
-    double lower[3], upper[3];  /* the body, a box; axes from kind->dim on are not used [m] */
-    double t_end;               /* samples lie in [0, t_end] [s] */
-    double wave_number;         /* largest along any axis [rad/m] */
-    double frequency;           /* highest [rad/s] */
-    double bulk, mu, rho;       /* [Pa], [Pa], [kg/m^3] */
-    struct oracle_check *line;  /* [size] lines to fill */
-    size_t size, count;         /* room for lines, and lines there are */
-    struct self_check_scale of; /* set by self_check_differentials */
+    double lower[3], upper[3];            /* the body, a box; axes from kind->dim on are not used [m] */
+    double t_end;                         /* samples lie in [0, t_end] [s] */
+    double wave_number;                   /* largest along any axis [rad/m] */
+    double frequency;                     /* highest [rad/s] */
+    double bulk, mu, rho;                 /* [Pa], [Pa], [kg/m^3] */
+    const struct self_check_body *behind; /* a second body further along X, in one dimension; NULL if there is none */
+    struct self_check_scale least; /* sizes the fields are known to have where samples may miss them; else zero */
+    double t_free;                 /* nothing feeds or drains the body from here on [s] */
+    struct oracle_check *line;     /* [size] lines to fill */
+    size_t size, count;            /* room for lines, and lines there are */
+    struct self_check_scale of;    /* set by self_check_differentials */
 };
 
 /* v = du/dt, p = rho v, F = I + du/dX, P = K tr(e) I + 2 mu dev(e) with e the symmetric du/dX, dp/dt = Div P. Together
@@ -51,7 +60,14 @@ typedef void self_check_second(const struct oracle *oracle, const double X[3], d
 void self_check_compare(struct self_check *check, self_check_second *second);
 
 /* Kinetic and strain energy against Gauss quadrature of p.v/2 and of the complementary energy of P (e as P has it, with
- * no unit matrix to subtract), and their sum against its first value: nothing feeds or drains the body. */
+ * no unit matrix to subtract), and their sum from t_free on against its first value: nothing feeds or drains the body.
+ */
 void self_check_energies(struct self_check *check);
+
+/* Fronts of a one-dimensional kind, at sampled times. At each the other family of characteristics must be smooth:
+ * [P] = -rho s [v] and [v] = -s [F], for the fields and for their slopes, s the speed of the front. The jump must be
+ * the listed one, and the front must later be listed where its speed takes it. Between the places listed u must be the
+ * integral of F - I, all the way from end to end: a front that is not listed spoils the quadrature. */
+void self_check_fronts(struct self_check *check);
 
 #endif

@@ -1,5 +1,6 @@
 /* What every oracle must do, asked of every oracle there is: describe itself, refuse bad values, pass its own check,
- * and have a check that sees every single component of every field, a NaN and the energies being off. */
+ * and have a check that sees every single component of every field, a NaN, every fault of a list of fronts, and the
+ * energies being off. */
 #include "oracles/oracle.h"
 #include "tests/unit/unit.h"
 
@@ -9,11 +10,24 @@
 
 enum { NUMBERS = sizeof(struct oracle_state) / sizeof(double) };
 
-/* One component of the state spoiled, everywhere: x (1 + factor) + shift; -1 for none. */
+/* What may be wrong with the list of fronts. */
+enum front_fault {
+    FRONTS_RIGHT,
+    FRONT_LEFT_OUT,
+    FRONT_MISPLACED,
+    FRONT_TOO_FAST,
+    JUMP_OFF,
+    MISNAMED,
+    TOO_MANY,
+    FAULTS
+};
+
+/* One component of the state spoiled, everywhere: x (1 + factor) + shift + tilt X; -1 for none. */
 static struct {
     const struct oracle_kind *kind;
     int component;
-    double factor, shift;
+    double factor, shift, tilt;
+    enum front_fault fault;
     double kinetic_factor, strain_factor;
     double largest[NUMBERS]; /* magnitudes seen, without the unit matrix of F */
 } spoil;
@@ -29,7 +43,7 @@ static void spoiled_state(const struct oracle *oracle, const double X[3], double
         double unit = i >= UNIT_MATRIX && i < UNIT_MATRIX + 9 && (i - UNIT_MATRIX) % 4 == 0 ? 1 : 0;
         spoil.largest[i] = fmax(spoil.largest[i], fabs(n[i] - unit));
         if (i == spoil.component) {
-            n[i] = unit + (n[i] - unit) * (1 + spoil.factor) + spoil.shift;
+            n[i] = unit + (n[i] - unit) * (1 + spoil.factor) + spoil.shift + spoil.tilt * X[0];
         }
     }
     memcpy(state, n, sizeof n);
@@ -40,6 +54,29 @@ static void spoiled_energy(const struct oracle *oracle, double t, double *kineti
     spoil.kind->energy(oracle, t, kinetic, strain);
     *kinetic *= 1 + spoil.kinetic_factor;
     *strain *= 1 + spoil.strain_factor;
+}
+
+/* The first front that moves, with its fault. */
+static size_t spoiled_fronts(const struct oracle *oracle, double t, struct oracle_front front[ORACLE_FRONTS])
+{
+    size_t count = spoil.kind->fronts(oracle, t, front), i = 0;
+    while (i < count && front[i].speed == 0) {
+        i++;
+    }
+    if (count == ORACLE_TOO_MANY_FRONTS || i == count) {
+        return count;
+    }
+    if (spoil.fault == FRONT_LEFT_OUT) {
+        memmove(front + i, front + i + 1, (count - i - 1) * sizeof *front);
+        return count - 1;
+    }
+    front[i].X *= spoil.fault == FRONT_MISPLACED ? 1 + 1e-6 : 1;
+    front[i].speed *= spoil.fault == FRONT_TOO_FAST ? 1 + 1e-6 : 1;
+    front[i].jump += spoil.fault == JUMP_OFF ? 1e-6 * fabs(front[i].speed) : 0;
+    if (spoil.fault == MISNAMED) {
+        front[i].smoothness = front[i].smoothness == ORACLE_JUMPS ? ORACLE_KINKS : ORACLE_JUMPS;
+    }
+    return spoil.fault == TOO_MANY ? ORACLE_TOO_MANY_FRONTS : count;
 }
 
 static struct oracle *create_typical(const struct oracle_kind *kind)
@@ -67,6 +104,7 @@ static struct oracle_kind copy_of(const struct oracle_kind *kind)
     struct oracle_kind copy = *kind;
     copy.state = spoiled_state;
     copy.energy = spoiled_energy;
+    copy.fronts = kind->fronts != NULL ? spoiled_fronts : NULL;
     return copy;
 }
 
@@ -97,6 +135,8 @@ static void describes_itself(void)
             }
         }
         CU_ASSERT_TRUE(parameters <= ORACLE_PARAMETERS);
+        CU_ASSERT_EQUAL(kind->fronts == NULL, kind->smoothness == ORACLE_SMOOTH);
+        CU_ASSERT_TRUE(kind->fronts == NULL || kind->dim == 1);
     }
     CU_ASSERT_TRUE(count > 0);
 }
@@ -152,6 +192,46 @@ static void answers_repeatably_with_finite_numbers(void)
         }
         (*k)->destroy(oracle);
         (*k)->destroy(again);
+    }
+}
+
+static void figures_describe_themselves(void)
+{
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        struct oracle *oracle = create_typical(*k);
+        struct oracle_figure figure[ORACLE_FIGURES];
+        size_t count = (*k)->figures != NULL ? (*k)->figures(oracle, figure) : 0;
+        CU_ASSERT_TRUE_FATAL(count <= ORACLE_FIGURES);
+        for (size_t i = 0; i < count; i++) {
+            CU_ASSERT_TRUE(strlen(figure[i].name) > 0 && strlen(figure[i].unit) > 0 && strlen(figure[i].help) > 0);
+            CU_ASSERT_TRUE(isfinite(figure[i].value));
+            for (size_t j = 0; j < i; j++) {
+                CU_ASSERT_STRING_NOT_EQUAL(figure[i].name, figure[j].name);
+            }
+        }
+        (*k)->destroy(oracle);
+    }
+}
+
+static void lists_fronts_in_order_and_repeatably(void)
+{
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        struct oracle *oracle = create_typical(*k);
+        for (size_t i = 0; (*k)->fronts != NULL && i < 20; i++) {
+            struct oracle_front front[ORACLE_FRONTS], again[ORACLE_FRONTS];
+            double t = 1e-4 * (double)i;
+            size_t count = (*k)->fronts(oracle, t, front);
+            CU_ASSERT_TRUE_FATAL(count <= ORACLE_FRONTS);
+            CU_ASSERT_EQUAL_FATAL((*k)->fronts(oracle, t, again), count);
+            for (size_t j = 0; j < count; j++) {
+                CU_ASSERT_TRUE(isfinite(front[j].X) && isfinite(front[j].speed) && isfinite(front[j].jump));
+                CU_ASSERT_TRUE(front[j].smoothness == ORACLE_KINKS || front[j].smoothness == ORACLE_JUMPS);
+                CU_ASSERT_TRUE(front[j].smoothness <= (*k)->smoothness);
+                CU_ASSERT_TRUE(j == 0 || front[j].X >= front[j - 1].X);
+                CU_ASSERT_TRUE(front[j].X == again[j].X && front[j].jump == again[j].jump);
+            }
+        }
+        (*k)->destroy(oracle);
     }
 }
 
@@ -222,11 +302,28 @@ static void spoil_each_component(const struct oracle_kind *kind, const struct or
         spoil.factor = 0;
         spoil.shift = 1e-6 * field_size(largest, i);
         CU_ASSERT_TRUE(caught(&copy, oracle, failed));
+        spoil.tilt = spoil.shift;
+        spoil.shift = 0;
+        CU_ASSERT_TRUE(caught(&copy, oracle, failed));
+        spoil.tilt = 0;
         spoil.factor = 1e-6;
         spoil.shift = 0;
         CU_ASSERT_TRUE(largest[i] < 1e-3 * field_size(largest, i) || caught(&copy, oracle, failed));
         spoil.factor = NAN;
         CU_ASSERT_TRUE(caught(&copy, oracle, none));
+    }
+}
+
+static void spoil_fronts(const struct oracle_kind *kind, const struct oracle *oracle, bool failed[ORACLE_LAWS])
+{
+    struct oracle_kind copy = copy_of(kind);
+    for (int fault = FRONTS_RIGHT + 1; fault < FAULTS && kind->fronts != NULL; fault++) {
+        spoil.fault = (enum front_fault)fault;
+        bool seen = caught(&copy, oracle, failed);
+        if (!seen) {
+            printf("%s: a fault of kind %d in the list of fronts goes unseen\n", kind->name, fault);
+        }
+        CU_ASSERT_TRUE(seen);
     }
 }
 
@@ -238,6 +335,7 @@ static void its_check_sees_every_component_and_every_line_can_fail(void)
         bool failed[ORACLE_LAWS] = {false};
         size_t count = 0;
         spoil_each_component(*k, oracle, failed);
+        spoil_fronts(*k, oracle, failed);
         struct oracle_kind copy = copy_of(*k);
         spoil.kinetic_factor = 1e-6;
         CU_ASSERT_TRUE(caught(&copy, oracle, failed));
@@ -262,6 +360,8 @@ int main(void)
         {"describes itself", describes_itself},
         {"refuses each bad value", refuses_each_bad_value},
         {"answers repeatably with finite numbers", answers_repeatably_with_finite_numbers},
+        {"figures describe themselves", figures_describe_themselves},
+        {"lists fronts in order and repeatably", lists_fronts_in_order_and_repeatably},
         {"passes its own check", passes_its_own_check},
         {"fills no more lines than there is room for", fills_no_more_lines_than_there_is_room_for},
         {"its check sees every component, and every line can fail",

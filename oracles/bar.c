@@ -1,0 +1,105 @@
+#include "oracles/bar.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct bar bar_make(double lower, double length, double E, double rho)
+{
+    double c = sqrt(E / rho);
+    return (struct bar){
+        .lower = lower, .upper = lower + length, .E = E, .rho = rho, .c = c, .Z = rho * c, .T = length / c};
+}
+
+void bar_state(const struct bar *bar, double u, double v, double stress, struct oracle_state *state)
+{
+    memset(state, 0, sizeof *state);
+    state->u[0] = u;
+    state->v[0] = v;
+    state->p[0] = bar->rho * v;
+    state->F[0] = 1 + stress / bar->E;
+    state->F[4] = state->F[8] = 1;
+    state->P[0] = stress;
+}
+
+bool bar_representable(const double *size, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!(fabs(size[i]) >= DBL_MIN / DBL_EPSILON && fabs(size[i]) <= DBL_MAX * DBL_EPSILON)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool bar_create(const void *oracle, size_t size, struct oracle **out, char why[ORACLE_WHY])
+{
+    void *copy = malloc(size);
+    if (copy == NULL) {
+        (void)snprintf(why, ORACLE_WHY, "no memory for %zu bytes", size);
+        return false;
+    }
+    memcpy(copy, oracle, size);
+    *out = copy;
+    return true;
+}
+
+size_t bar_add_front(struct oracle_front front[ORACLE_FRONTS], size_t count, struct oracle_front added, double near)
+{
+    size_t at = count;
+    if (count == ORACLE_TOO_MANY_FRONTS) {
+        return count;
+    }
+    for (size_t i = count; i-- > 0 && front[i].X > added.X - near;) {
+        if (front[i].speed == added.speed && fabs(front[i].X - added.X) <= near) {
+            front[i].jump += added.jump;
+            front[i].smoothness = added.smoothness > front[i].smoothness ? added.smoothness : front[i].smoothness;
+            return count;
+        }
+        at = front[i].X > added.X ? i : at;
+    }
+    if (count == ORACLE_FRONTS) {
+        return ORACLE_TOO_MANY_FRONTS;
+    }
+    memmove(front + at + 1, front + at, (count - at) * sizeof *front);
+    front[at] = added;
+    return count + 1;
+}
+
+/* Six-point Gauss rule from a to b. */
+static void piece_energy(const struct oracle_kind *kind, const struct oracle *oracle, const struct bar *bar, double a,
+                         double b, double t, double *kinetic, double *strain)
+{
+    static const double node[3] = {0.2386191860831969, 0.6612093864662645, 0.9324695142031521};
+    static const double weight[3] = {0.4679139345726910, 0.3607615730481386, 0.1713244923791704};
+    for (int n = 0; n < 6; n++) {
+        struct oracle_state state;
+        double X[3] = {(a + b) / 2 + (n % 2 == 0 ? -1 : 1) * (b - a) / 2 * node[n / 2], 0, 0};
+        kind->state(oracle, X, t, &state);
+        *kinetic += (b - a) / 4 * weight[n / 2] * bar->rho * state.v[0] * state.v[0];
+        *strain += (b - a) / 4 * weight[n / 2] * state.P[0] / bar->E * state.P[0];
+    }
+}
+
+void bar_energy(const struct oracle_kind *kind, const struct oracle *oracle, const struct bar *bar, double longest,
+                double t, double *kinetic, double *strain)
+{
+    struct oracle_front front[ORACLE_FRONTS];
+    size_t count = kind->fronts(oracle, t, front);
+    if (count == ORACLE_TOO_MANY_FRONTS) {
+        *kinetic = *strain = NAN;
+        return;
+    }
+    double from = bar->lower;
+    for (size_t i = 0; i <= count; i++) {
+        double to = i < count ? fmin(fmax(front[i].X, bar->lower), bar->upper) : bar->upper;
+        double cuts = fmax(1, ceil((to - from) / longest));
+        for (double cut = 0; cut < cuts; cut++) {
+            double a = from + cut / cuts * (to - from), b = from + (cut + 1) / cuts * (to - from);
+            piece_energy(kind, oracle, bar, a, b, t, kinetic, strain);
+        }
+        from = fmax(from, to);
+    }
+}

@@ -1,0 +1,34 @@
+/* What the one-dimensional oracles have in common: a bar in uniaxial stress, P = E (F - 1), in which waves run with
+ * c = sqrt(E / rho). Lateral strain is not reported: F is the identity across the bar. Energies are per unit of the
+ * cross-section. */
+#ifndef ORACLES_BAR_H
+#define ORACLES_BAR_H
+
+#include "oracles/oracle.h"
+
+struct bar {
+    double lower, upper; /* its ends [m] */
+    double E, rho;       /* [Pa], [kg/m^3] */
+    double c, Z, T;      /* wave speed [m/s], impedance rho c [kg/(m^2 s)], time of travel from end to end [s] */
+};
+
+struct bar bar_make(double lower, double length, double E, double rho);
+
+/* All fields at a point from displacement, velocity and stress. */
+void bar_state(const struct bar *bar, double u, double v, double stress, struct oracle_state *state);
+
+/* Whether all of these are neither zero, nor so large or small that products of them lose digits or overflow. */
+bool bar_representable(const double *size, size_t count);
+/* A copy of `size` bytes, or false with why filled in. */
+bool bar_create(const void *oracle, size_t size, struct oracle **out, char why[ORACLE_WHY]);
+
+/* Adds a front, in order, to those there are; one at the same place (within `near` [m]) with the same speed is the same
+ * front: jumps add up. Returns how many there are now; ORACLE_TOO_MANY_FRONTS stays what it is. */
+size_t bar_add_front(struct oracle_front front[ORACLE_FRONTS], size_t count, struct oracle_front added, double near);
+
+/* Adds the energies of one bar of a kind at time t, by quadrature between the fronts in pieces of at most `longest`
+ * [m], in which the fields are smooth and vary by no more than half a radian. NaN where the fronts are not known. */
+void bar_energy(const struct oracle_kind *kind, const struct oracle *oracle, const struct bar *bar, double longest,
+                double t, double *kinetic, double *strain);
+
+#endif
