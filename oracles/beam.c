@@ -1,0 +1,175 @@
+/* Both theories are one here: with b^2 = rho A L^4 omega^2 / (E' I), r^2 = I / (A L^2), s^2 = E' I / (kappa G A L^2),
+ *
+ *     (w'' - psi') / s^2 + b^2 w = 0,   psi'' + (w' - psi) / s^2 + b^2 r^2 psi = 0      along xi = x / L,
+ *
+ * and r = s = 0 is the thin plate. Solutions cosh(a xi), sinh(a xi), cos(c xi), sin(c xi) with a^2 c^2 =
+ * b^2 (1 - b^2 r^2 s^2), c^2 - a^2 = b^2 (r^2 + s^2); the rotation psi has the factors ga = a + b^2 s^2 / a and
+ * gc = c - b^2 s^2 / c. Clamp and free end leave, after division by ga cosh a,
+ *
+ *     2 / cosh a + cos c (q + 1 / q) - (c / a - a / c) tanh a sin c = 0,   q = c gc / (a ga) > 0,
+ *
+ * in which nothing overflows or cancels. At c = m pi the middle term decides the sign, (-1)^m, so mode n lies between
+ * c = (n - 1) pi and n pi. */
+#include "oracles/beam.h"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_roots.h>
+#include <math.h>
+#include <stdio.h>
+
+static const double PI = 3.14159265358979323846;
+
+struct theory {
+    double r2, s2; /* r^2, s^2 */
+};
+
+/* All that c determines. */
+struct waves {
+    double a, c, ga, gc;
+    double b2;      /* b^2 */
+    bool evanesces; /* below the cut-off, b^2 r^2 s^2 < 1 */
+};
+
+/* b^2 is the smaller root of r^2 s^2 b^4 - (1 + c^2 (r^2 + s^2)) b^2 + c^4 = 0. */
+static struct waves waves(const struct theory *theory, double c)
+{
+    double middle = 1 + c * c * (theory->r2 + theory->s2), rs = theory->r2 * theory->s2, c4 = c * c * c * c;
+    struct waves w = {.c = c, .b2 = 2 * c4 / (middle + sqrt(middle * middle - 4 * rs * c4))};
+    w.evanesces = w.b2 * rs < 1;
+    w.a = w.evanesces ? sqrt(w.b2 * (1 - w.b2 * rs)) / c : 0;
+    w.ga = w.a + w.b2 * theory->s2 / w.a;
+    w.gc = c - w.b2 * theory->s2 / c;
+    return w;
+}
+
+static double characteristic(double c, void *context)
+{
+    const struct waves w = waves(context, c);
+    double q = w.c * w.gc / (w.a * w.ga);
+    return 2 / cosh(w.a) + cos(c) * (q + 1 / q) - (c / w.a - w.a / c) * tanh(w.a) * sin(c);
+}
+
+/* Brent's method until its interval no longer shrinks. */
+static bool find_root(gsl_function *function, double lower, double upper, double *root)
+{
+    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    if (solver == NULL) {
+        return false;
+    }
+    bool found = gsl_root_fsolver_set(solver, function, lower, upper) == GSL_SUCCESS;
+    for (int i = 0, status = GSL_CONTINUE; found && status == GSL_CONTINUE && i < 200; i++) {
+        found = gsl_root_fsolver_iterate(solver) == GSL_SUCCESS;
+        status = gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), gsl_root_fsolver_x_upper(solver), 0, 4e-16);
+    }
+    *root = gsl_root_fsolver_root(solver);
+    gsl_root_fsolver_free(solver);
+    return found;
+}
+
+/* The shape with clamp and free shear force: C = -A, D = -(ga / gc) B, and B / A = -R, where 1 - R = G exp(-a) is
+ * found without subtracting R from 1. */
+static void shape(const struct waves *w, struct oracle_beam_mode *mode)
+{
+    double fall = exp(-w->a), sech = 2 * fall / (1 + fall * fall), p = w->a * w->ga / (w->c * w->gc);
+    double below = 1 + p * cos(w->c) * sech;
+    double ratio = (tanh(w->a) - w->a / w->c * sin(w->c) * sech) / below;
+    double G = 2 * (fall + p * cos(w->c) + w->a / w->c * sin(w->c)) / ((1 + fall * fall) * below);
+    *mode = (struct oracle_beam_mode){.growth = w->a,
+                                      .wave = w->c,
+                                      .grow = G / 2,
+                                      .decay = (1 + ratio) / 2,
+                                      .cosine = -1,
+                                      .sine = w->ga / w->gc * ratio,
+                                      .growth_slope = w->ga,
+                                      .wave_slope = w->gc,
+                                      .length = 1};
+    double tip = oracle_beam_deflection(mode, 1);
+    mode->grow /= tip;
+    mode->decay /= tip;
+    mode->cosine /= tip;
+    mode->sine /= tip;
+}
+
+static bool positive(double value)
+{
+    return isfinite(value) && value > 0;
+}
+
+static bool is_beam(const struct oracle_beam *beam, int mode, char why[ORACLE_WHY])
+{
+    bool is = positive(beam->length) && positive(beam->height) && positive(beam->E) && positive(beam->rho) &&
+              beam->nu > -1 && beam->nu < 0.5 && mode >= 1;
+    if (!is) {
+        (void)snprintf(why, ORACLE_WHY,
+                       "a beam of length %g m, height %g m, E = %g Pa, nu = %g, rho = %g kg/m^3 in mode %d: all but nu "
+                       "must be > 0, and -1 < nu < 0.5",
+                       beam->length, beam->height, beam->E, beam->nu, beam->rho, mode);
+    }
+    return is;
+}
+
+static double modulus(const struct oracle_beam *beam)
+{
+    return beam->plane_stress ? beam->E : beam->E / ((1 - beam->nu) * (1 + beam->nu));
+}
+
+static bool solve(const struct oracle_beam *beam, const struct theory *theory, int mode,
+                  struct oracle_beam_mode *result, char why[ORACLE_WHY])
+{
+    double lower = mode == 1 ? 0.5 : (mode - 1) * PI, upper = mode * PI, c;
+    if (!waves(theory, upper).evanesces) {
+        (void)snprintf(why, ORACLE_WHY,
+                       "mode %d of a beam of length %g m and height %g m is not below the cut-off frequency of "
+                       "Timoshenko's theory; ask for a lower mode or a longer beam",
+                       mode, beam->length, beam->height);
+        return false;
+    }
+    gsl_function function = {.function = characteristic, .params = (void *)theory};
+    if (!find_root(&function, lower, upper, &c)) {
+        (void)snprintf(why, ORACLE_WHY, "mode %d: no root of the characteristic equation between %g and %g", mode,
+                       lower, upper);
+        return false;
+    }
+    struct waves w = waves(theory, c);
+    shape(&w, result);
+    result->length = beam->length;
+    result->frequency = sqrt(w.b2 * modulus(beam) / (12 * beam->rho)) * beam->height / (beam->length * beam->length);
+    result->period = 2 * PI / result->frequency;
+    return true;
+}
+
+bool oracle_beam_thin_plate(const struct oracle_beam *beam, int mode, struct oracle_beam_mode *result,
+                            char why[ORACLE_WHY])
+{
+    struct theory none = {0};
+    return is_beam(beam, mode, why) && solve(beam, &none, mode, result, why);
+}
+
+bool oracle_beam_timoshenko(const struct oracle_beam *beam, int mode, struct oracle_beam_mode *result,
+                            char why[ORACLE_WHY])
+{
+    if (!is_beam(beam, mode, why)) {
+        return false;
+    }
+    double slenderness = beam->height / beam->length, nu = beam->nu;
+    double factor = beam->plane_stress ? 5 * (1 + nu) / (6 + 5 * nu) : 5 / (6 - nu);
+    double G = beam->E / (2 * (1 + nu));
+    struct theory theory = {.r2 = slenderness * slenderness / 12};
+    theory.s2 = theory.r2 * modulus(beam) / (factor * G);
+    return solve(beam, &theory, mode, result, why);
+}
+
+double oracle_beam_deflection(const struct oracle_beam_mode *mode, double x)
+{
+    double xi = x / mode->length, phase = mode->wave * xi;
+    return mode->grow * exp(mode->growth * (xi - 1)) + mode->decay * exp(-mode->growth * xi) +
+           mode->cosine * cos(phase) + mode->sine * sin(phase);
+}
+
+double oracle_beam_rotation(const struct oracle_beam_mode *mode, double x)
+{
+    double xi = x / mode->length, phase = mode->wave * xi;
+    double even = mode->grow * exp(mode->growth * (xi - 1)) - mode->decay * exp(-mode->growth * xi);
+    double odd = mode->sine * cos(phase) - mode->cosine * sin(phase);
+    return (mode->growth_slope * even + mode->wave_slope * odd) / mode->length;
+}

@@ -1,0 +1,280 @@
+/* The laws that the cantilever's fields must satisfy, by differences and integrals of the fields as they are given.
+ *
+ * A Ritz solution satisfies clamp and symmetry exactly. The equation of motion and the free faces it satisfies the
+ * better the higher the degree of its polynomials; at the corners of the clamp the stress is singular and the degree
+ * low. So what is differentiated lies two heights from the clamp and one from the free end, or further. What remains
+ * there, and between two meshes that have no line in common, is RITZ at most. */
+#include "oracles/cantilever.h"
+#include "oracles/self_check_parts.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+enum { SAMPLES = 64, FACE_SAMPLES = 32, TIMES = 8 };
+static const double RITZ = 5e-7;
+
+static double amplitude(const struct oracle *o)
+{
+    return fabs(o->given.tip_velocity) / o->frequency;
+}
+
+/* P = lambda tr(e) I + 2 mu e by way of the bulk modulus, from the gradient of the displacement. */
+static void hooke(const struct self_check *check, const double G[9], double P[9])
+{
+    double trace = G[0] + G[4] + G[8];
+    for (int i = 0; i < 9; i++) {
+        P[i] = check->mu * (G[i] + G[i % 3 * 3 + i / 3]) + (i % 4 == 0 ? (check->bulk - 2 * check->mu / 3) * trace : 0);
+    }
+}
+
+enum law { VELOCITY, MOMENTUM, GRADIENT, STRESS, MOTION, MIRROR, LAWS };
+
+/* What a field looks like from the other side of y = 0: x components that change sign, and those that do not. */
+static void mirror(struct oracle_state *s)
+{
+    s->u[0] = -s->u[0];
+    s->v[0] = -s->v[0];
+    s->p[0] = -s->p[0];
+    for (int i = 0; i < 9; i += 4) {
+        s->F[i] = 2 - s->F[i];
+        s->P[i] = -s->P[i];
+    }
+}
+
+static void differentiate(struct self_check *check, size_t i, struct self_check_distance law[LAWS])
+{
+    struct oracle_state state, other, along[4];
+    struct self_check_spot spot = self_check_sample(check, i, SELF_CHECK_REACH);
+    double momentum[3], divergence[3] = {0}, G[9] = {0}, own[9], P[9];
+    check->kind->state(check->oracle, spot.X, spot.t, &state);
+    self_check_derivative(check, &spot, 3, &along[3]);
+    for (int j = 0; j < 2; j++) {
+        self_check_derivative(check, &spot, j, &along[j]);
+        for (int k = 0; k < 3; k++) {
+            G[3 * k + j] = along[j].u[k];
+            divergence[k] += along[j].P[3 * k + j];
+            self_check_largest(&law[MOTION].size, &along[j].P[3 * k + j], 1);
+        }
+    }
+    for (int k = 0; k < 9; k++) {
+        own[k] = state.F[k] - (k % 4 == 0 ? 1 : 0);
+    }
+    for (int k = 0; k < 3; k++) {
+        momentum[k] = check->rho * state.v[k];
+    }
+    hooke(check, own, P);
+    self_check_measure(&law[VELOCITY], state.v, along[3].u, 3);
+    self_check_measure(&law[MOMENTUM], state.p, momentum, 3);
+    self_check_measure(&law[GRADIENT], own, G, 9);
+    self_check_measure(&law[STRESS], state.P, P, 9);
+    self_check_measure(&law[MOTION], along[3].p, divergence, 3);
+    spot.X[1] = -spot.X[1];
+    check->kind->state(check->oracle, spot.X, spot.t, &other);
+    mirror(&other);
+    self_check_measure(&law[MIRROR], state.u, other.u, 3);
+}
+
+/* Sets the scales, which those that follow use. */
+static void differentials(struct self_check *check)
+{
+    struct self_check_distance law[LAWS] = {0};
+    check->of = (struct self_check_scale){.u = amplitude(check->oracle), .v = fabs(check->oracle->given.tip_velocity)};
+    for (size_t i = 0; i < SAMPLES; i++) {
+        differentiate(check, i, law);
+    }
+    double in_time = 16 * self_check_round_off(check) / SELF_CHECK_STEP, local = 64 * DBL_EPSILON;
+    check->of.gradient = law[GRADIENT].size;
+    check->of.stress = law[STRESS].size;
+    self_check_line(check, "v = du/dt", self_check_relative(law[VELOCITY].error, check->of.v), in_time);
+    self_check_line(check, "p = rho v", self_check_relative(law[MOMENTUM].error, law[MOMENTUM].size), 4 * DBL_EPSILON);
+    self_check_line(check, "F = I + du/dX", law[GRADIENT].error / self_check_gradient_scale(check, RITZ), RITZ);
+    self_check_line(check, "P = Hooke(F)", self_check_relative(law[STRESS].error, check->of.stress),
+                    local * (1 + 1 / (check->of.gradient + DBL_MIN)));
+    self_check_line(check, "dp/dt = Div P", self_check_relative(law[MOTION].error, law[MOTION].size), RITZ);
+    self_check_line(check, "mirror image", self_check_relative(law[MIRROR].error, check->of.u), local);
+}
+
+/* At t = 0: nothing is bent, and the middle of the free end has its velocity. */
+static void starts(struct self_check *check)
+{
+    const struct cantilever_given *g = &check->oracle->given;
+    double moved = 0, tip[3] = {g->length, 0, 0};
+    struct oracle_state state;
+    for (size_t i = 0; i < SAMPLES; i++) {
+        struct self_check_spot spot = self_check_sample_at(check, i, 0);
+        check->kind->state(check->oracle, spot.X, 0, &state);
+        self_check_largest(&moved, state.u, 3);
+    }
+    check->kind->state(check->oracle, tip, 0, &state);
+    self_check_line(check, "initial displacement", self_check_relative(moved, check->of.u), 16 * DBL_EPSILON);
+    self_check_line(check, "initial velocity of the tip",
+                    self_check_relative(fabs(state.v[1] - g->tip_velocity), check->of.v), 16 * DBL_EPSILON);
+}
+
+/* Point i of a face of the body; of the faces along X where it is differentiated. */
+static void face_point(const struct self_check *check, size_t i, int axis, double at, double X[3], double *t)
+{
+    const struct cantilever_given *g = &check->oracle->given;
+    X[0] = check->lower[0] + self_check_sequence(i, 0) * (check->upper[0] - check->lower[0]);
+    X[1] = (self_check_sequence(i, 1) - 0.5) * g->height;
+    X[2] = 0;
+    X[axis] = at;
+    *t = self_check_sequence(i, 3) * check->t_end;
+}
+
+static void faces(struct self_check *check)
+{
+    const struct cantilever_given *g = &check->oracle->given;
+    static const char *const law[] = {"displacement on X0", "traction on X1", "traction on Y0", "traction on Y1"};
+    const double at[] = {0, g->length, -g->height / 2, g->height / 2};
+    for (int face = 0; face < 4; face++) {
+        double largest = 0, X[3], t;
+        int axis = face / 2;
+        for (size_t i = 0; i < FACE_SAMPLES; i++) {
+            struct oracle_state state;
+            face_point(check, i, axis, at[face], X, &t);
+            check->kind->state(check->oracle, X, t, &state);
+            for (int k = 0; k < 3; k++) {
+                self_check_largest(&largest, face == 0 ? &state.u[k] : &state.P[3 * k + axis], 1);
+            }
+        }
+        self_check_line(check, law[face], self_check_relative(largest, face == 0 ? check->of.u : check->of.stress),
+                        face == 0 ? 16 * DBL_EPSILON : RITZ);
+    }
+}
+
+/* The same mode by other elements, with the frequency that these give. */
+static void second(const struct self_check *check, const double X[3], double t, struct oracle_state *state)
+{
+    const struct oracle *o = check->oracle;
+    const struct cantilever_given *g = &o->given;
+    double half = g->height / 2, u[2], gradient[4], G[9] = {0}, phase = o->second_frequency * t;
+    ritz_evaluate(&o->second, X[0] / half, X[1] / half, u, gradient);
+    *state = (struct oracle_state){.F = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    for (int i = 0; i < 2; i++) {
+        state->u[i] = g->tip_velocity / o->second_frequency * sin(phase) * u[i];
+        state->v[i] = g->tip_velocity * cos(phase) * u[i];
+        state->p[i] = check->rho * state->v[i];
+        for (int j = 0; j < 2; j++) {
+            G[3 * i + j] = g->tip_velocity / o->second_frequency * sin(phase) * gradient[2 * i + j] / half;
+            state->F[3 * i + j] += G[3 * i + j];
+        }
+    }
+    hooke(check, G, state->P);
+}
+
+static void compare(struct self_check *check)
+{
+    struct self_check_distance u = {0}, v = {0}, p = {0}, F = {0}, P = {0};
+    for (size_t i = 0; i < SAMPLES; i++) {
+        struct oracle_state state, other;
+        struct self_check_spot spot = self_check_sample(check, i, 0);
+        check->kind->state(check->oracle, spot.X, spot.t, &state);
+        second(check, spot.X, spot.t, &other);
+        self_check_measure(&u, state.u, other.u, 3);
+        self_check_measure(&v, state.v, other.v, 3);
+        self_check_measure(&p, state.p, other.p, 3);
+        self_check_measure(&F, state.F, other.F, 9);
+        self_check_measure(&P, state.P, other.P, 9);
+    }
+    self_check_line(check, "second evaluation: u", self_check_relative(u.error, check->of.u), RITZ);
+    self_check_line(check, "second evaluation: v", self_check_relative(v.error, check->of.v), RITZ);
+    self_check_line(check, "second evaluation: p", self_check_relative(p.error, check->rho * check->of.v), RITZ);
+    self_check_line(check, "second evaluation: F", F.error / self_check_gradient_scale(check, RITZ), RITZ);
+    self_check_line(check, "second evaluation: P", self_check_relative(P.error, check->of.stress), RITZ);
+}
+
+struct energies {
+    double kinetic, strain;
+};
+
+/* p.v/2, and dev(P):dev(P)/(4 mu) + tr(P)^2/(18 K): per volume [J/m^3]. */
+static struct energies density(const struct self_check *check, const double X[3], double t)
+{
+    struct oracle_state s;
+    struct energies e = {0};
+    check->kind->state(check->oracle, X, t, &s);
+    double trace = s.P[0] + s.P[4] + s.P[8];
+    for (int i = 0; i < 9; i++) {
+        double dev = s.P[i] - (i % 4 == 0 ? trace / 3 : 0);
+        e.strain += dev / (4 * check->mu) * dev;
+    }
+    e.strain += trace / (18 * check->bulk) * trace;
+    for (int i = 0; i < 3; i++) {
+        e.kinetic += s.p[i] * s.v[i] / 2;
+    }
+    return e;
+}
+
+/* Over the upper half, which a line of its own shows to be the mirror image of the lower, element by element. */
+static struct energies quadrature(const struct self_check *check, double t)
+{
+    const struct axis *x = &check->oracle->solution.mode.x, *y = &check->oracle->solution.mode.y;
+    double half = check->oracle->given.height / 2;
+    struct energies sum = {0};
+    for (int cell = 0; cell < x->elements * y->elements; cell++) {
+        const double *a = &x->node[cell / y->elements], *b = &y->node[cell % y->elements];
+        for (int n = 0; n < SELF_CHECK_NODES * SELF_CHECK_NODES; n++) {
+            double along, across;
+            double X[3] = {half * (a[0] + (a[1] - a[0]) * (1 + self_check_node(n / SELF_CHECK_NODES, &along)) / 2),
+                           half * (b[0] + (b[1] - b[0]) * (1 + self_check_node(n % SELF_CHECK_NODES, &across)) / 2), 0};
+            struct energies e = density(check, X, t);
+            double weight = 2 * half * half * (a[1] - a[0]) / 2 * along * (b[1] - b[0]) / 2 * across;
+            sum.kinetic += weight * e.kinetic;
+            sum.strain += weight * e.strain;
+        }
+    }
+    return sum;
+}
+
+/* An eighth of a period after the start both energies of a mode are equal: that is Rayleigh's quotient. */
+static void energies(struct self_check *check)
+{
+    double eighth = PI / (4 * check->oracle->frequency);
+    struct self_check_distance total = {0};
+    struct energies first, given, summed = quadrature(check, eighth);
+    check->kind->energy(check->oracle, 0, &first.kinetic, &first.strain);
+    double whole = first.kinetic + first.strain;
+    for (size_t i = 0; i < TIMES; i++) {
+        check->kind->energy(check->oracle, self_check_sequence(i, 3) * check->t_end, &given.kinetic, &given.strain);
+        double sum = given.kinetic + given.strain;
+        self_check_measure(&total, &sum, &whole, 1);
+    }
+    check->kind->energy(check->oracle, eighth, &given.kinetic, &given.strain);
+    self_check_line(check, "total energy constant", self_check_relative(total.error, whole), 64 * DBL_EPSILON);
+    self_check_line(check, "kinetic energy = quadrature",
+                    self_check_relative(fabs(given.kinetic - summed.kinetic), whole), RITZ / 4);
+    self_check_line(check, "strain energy = quadrature", self_check_relative(fabs(given.strain - summed.strain), whole),
+                    RITZ / 2);
+    self_check_line(check, "Rayleigh quotient = frequency^2",
+                    self_check_relative(fabs(summed.strain - summed.kinetic), summed.kinetic), RITZ);
+}
+
+size_t cantilever_check(const struct oracle_kind *kind, const struct oracle *oracle, struct oracle_check *line,
+                        size_t size)
+{
+    const struct cantilever_given *g = &oracle->given;
+    double half = g->height / 2;
+    /* Two radians per half height: end effects decay with 3.7 of them, bending waves are longer. */
+    struct self_check check = {.kind = kind,
+                               .oracle = oracle,
+                               .lower = {2 * g->height, -half},
+                               .upper = {g->length - g->height, half},
+                               .t_end = 2 * PI / oracle->frequency,
+                               .wave_number = 2 / half,
+                               .frequency = oracle->frequency,
+                               .bulk = g->E / (3 * (1 - 2 * g->nu)),
+                               .mu = g->E / (2 * (1 + g->nu)),
+                               .rho = g->rho,
+                               .line = line,
+                               .size = size};
+    differentials(&check);
+    starts(&check);
+    faces(&check);
+    compare(&check);
+    energies(&check);
+    return check.count;
+}
