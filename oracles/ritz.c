@@ -12,9 +12,9 @@ static void append(struct axis *axis, double node, int degree)
     axis->node[++axis->elements] = node;
 }
 
-static void cut_length(double length, const struct ritz_mesh *mesh, struct axis *x)
+static void cut_length(double length, int mode, const struct ritz_mesh *mesh, struct axis *x)
 {
-    double tip[AXIS_ELEMENTS];
+    double tip[AXIS_ELEMENTS], half_wave = length / (mode - 0.5);
     int tips = 0;
     for (int k = 0; k <= mesh->layers; k++) {
         append(x, pow(mesh->grading, mesh->layers - k), mesh->corner + k);
@@ -22,7 +22,8 @@ static void cut_length(double length, const struct ritz_mesh *mesh, struct axis 
     for (int k = mesh->tip_layers; k >= 1; k--) {
         tip[tips++] = length - pow(mesh->grading, k);
     }
-    for (double at = 1, size = 1; at + 0.6 * size < length / 2; at += size, size *= mesh->growth) {
+    for (double at = 1, size = 1; at + 0.6 * size < length / 2;
+         at += size, size = fmin(size * mesh->growth, half_wave)) {
         tip[tips++] = length - at;
         if (at > 1) {
             append(x, at, mesh->middle);
@@ -44,7 +45,7 @@ static void cut_height(const struct ritz_mesh *mesh, struct axis *y)
 
 static void cut(const struct ritz_problem *problem, const struct ritz_mesh *mesh, struct ritz_mode *mode)
 {
-    cut_length(problem->length, mesh, &mode->x);
+    cut_length(problem->length, problem->mode, mesh, &mode->x);
     cut_height(mesh, &mode->y);
     mode->y.nested = true;
     axis_number(&mode->x);

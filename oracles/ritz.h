@@ -26,7 +26,8 @@ struct ritz_mesh {
     int layers;     /* of elements towards the corner */
     int tip_layers; /* as many towards the free end, where stress is smooth but not its derivatives */
     double grading; /* size of an element to that of the next one away from the corner */
-    double growth;  /* of the elements along the beam, from one half height at its ends towards the middle */
+    double growth;  /* of the elements along the beam, from one half height at its ends towards the middle,
+                       up to half a wave of the mode */
     int corner;     /* degree at the corner; one more with every element away from it ... */
     int middle;     /* ... and the degree of all others, along the beam */
 };
