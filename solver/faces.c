@@ -79,13 +79,13 @@ static void place(const struct solver_cloud *cloud, size_t a, double X[3])
 }
 
 bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_scene *scene,
-                            const struct solver_cloud *cloud, double rho, double t, size_t lanes, double *p,
+                            const struct solver_cloud *cloud, double t, size_t lanes, double *v,
                             struct solver_error *error)
 {
     size_t dim = (size_t)faces->dim;
     for (size_t c = 0; c < faces->constraint_count; c++) {
         const struct solver_constraint *constraint = &faces->constraint[c];
-        double *at = p + constraint->particle * lanes;
+        double *at = v + constraint->particle * lanes;
         double free_part[3] = {0};
         double velocity[3] = {0};
         if (constraint->motion >= 0) {
@@ -102,15 +102,16 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
             }
         }
         for (size_t i = 0; i < dim; i++) {
-            at[i] = free_part[i] + rho * velocity[i];
+            at[i] = free_part[i] + velocity[i];
         }
     }
     return true;
 }
 
 bool solver_faces_load(const struct solver_faces *faces, const struct solver_scene *scene,
-                       const struct solver_cloud *cloud, const struct solver_stencil *stencil, double t, size_t lanes,
-                       const double *p, double rho, double *p_rate, double *power, struct solver_error *error)
+                       const struct solver_cloud *cloud, const struct solver_stencil *stencil,
+                       const struct solver_material_constants *constants, size_t stride, double t, size_t lanes,
+                       const double *v, double *v_rate, double *power, struct solver_error *error)
 {
     size_t dim = (size_t)faces->dim;
     double X[3];
@@ -130,8 +131,8 @@ bool solver_faces_load(const struct solver_faces *faces, const struct solver_sce
         }
         area = sqrt(area);
         for (size_t axis = 0; axis < dim; axis++) {
-            p_rate[a * lanes + axis] += area * value[axis] / stencil->V[a];
-            *power += area * value[axis] * p[a * lanes + axis] / rho;
+            v_rate[a * lanes + axis] += area * value[axis] / (stencil->V[a] * constants[a * stride].rho);
+            *power += area * value[axis] * v[a * lanes + axis];
         }
     }
     for (size_t a = 0; faces->body_force && a < cloud->count; a++) {
@@ -140,8 +141,8 @@ bool solver_faces_load(const struct solver_faces *faces, const struct solver_sce
             return false;
         }
         for (size_t axis = 0; axis < dim; axis++) {
-            p_rate[a * lanes + axis] += value[axis];
-            *power += stencil->V[a] * value[axis] * p[a * lanes + axis] / rho;
+            v_rate[a * lanes + axis] += value[axis] / constants[a * stride].rho;
+            *power += stencil->V[a] * value[axis] * v[a * lanes + axis];
         }
     }
     return true;

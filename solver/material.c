@@ -47,5 +47,7 @@ struct solver_material_constants solver_material_constants(double E, double nu, 
     };
     material.cp = sqrt((material.kappa + 4.0 / 3.0 * material.mu) / rho);
     material.cs = sqrt(material.mu / rho);
+    material.zp = rho * material.cp;
+    material.zs = rho * material.cs;
     return material;
 }

@@ -13,7 +13,10 @@ struct solver_material_constants {
     double rho;               /* [kg/m^3] */
     double mu, lambda, kappa; /* shear, Lame's first and bulk modulus [Pa] */
     double cp, cs;            /* p- and s-wave speed at rest [m/s] */
+    double zp, zs;            /* impedances rho cp, rho cs [kg/(m^2 s)] */
 };
+
+/* Where constants are an array over particles, `stride` is 1, and 0 where one entry serves all. */
 
 /* From Young's modulus [Pa], Poisson's ratio in (-1, 0.5) and density [kg/m^3]. */
 struct solver_material_constants solver_material_constants(double E, double nu, double rho);
@@ -33,13 +36,14 @@ struct solver_material {
     void (*wave_speeds)(const struct solver_material_constants *material, const double *F, const double *N,
                         double *speeds);
     /* The hot loop: P of particles begin to end - 1, padded columns (dim.h). H, J NULL: those of F. */
-    void (*stress_range)(const struct solver_material_constants *material, size_t begin, size_t end, const double *F,
-                         const double *H, const double *J, double *P);
+    void (*stress_range)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                         const double *F, const double *H, const double *J, double *P);
     /* Volumetric stress U'(J) [Pa] of particles begin to end - 1. */
-    void (*volumetric_range)(const struct solver_material_constants *material, size_t begin, size_t end,
+    void (*volumetric_range)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                              const double *J, double *pressure);
     /* An upper bound of the wave speeds [m/s] in all directions over particles begin to end - 1; exact at rest. */
-    double (*fastest)(const struct solver_material_constants *material, size_t begin, size_t end, const double *F);
+    double (*fastest)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                      const double *F);
 };
 
 struct solver_material_model {

@@ -82,29 +82,32 @@ static void wave_speeds(const struct solver_material_constants *material, const 
     }
 }
 
-static void stress_range(const struct solver_material_constants *material, size_t begin, size_t end, const double *F,
-                         const double *H, const double *J, double *P)
+static void stress_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                         const double *F, const double *H, const double *J, double *P)
 {
     (void)H;
     for (size_t a = begin; a < end; a++) {
-        hooke(material, F + a * DIM * LANES, LANES, J != NULL ? J + a : NULL, P + a * DIM * LANES);
+        hooke(material + a * stride, F + a * DIM * LANES, LANES, J != NULL ? J + a : NULL, P + a * DIM * LANES);
     }
 }
 
-static void volumetric_range(const struct solver_material_constants *material, size_t begin, size_t end,
+static void volumetric_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                              const double *J, double *pressure)
 {
     for (size_t a = begin; a < end; a++) {
-        pressure[a] = material->kappa * (J[a] - 1.0);
+        pressure[a] = material[a * stride].kappa * (J[a] - 1.0);
     }
 }
 
-static double fastest(const struct solver_material_constants *material, size_t begin, size_t end, const double *F)
+static double fastest(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                      const double *F)
 {
-    (void)begin;
-    (void)end;
     (void)F;
-    return material->cp;
+    double speed = material[begin * stride].cp;
+    for (size_t a = begin; stride != 0 && a < end; a++) {
+        speed = fmax(speed, material[a].cp);
+    }
+    return speed;
 }
 
 const struct solver_material DIM_NAME(solver_linear_elastic) = {

@@ -164,34 +164,34 @@ static void wave_speeds(const struct solver_material_constants *material, const 
     }
 }
 
-static inline void range_of(const struct solver_material_constants *material, size_t begin, size_t end, const double *F,
-                            const double *H, const double *J, double *P, bool polyconvex)
+static inline void range_of(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                            const double *F, const double *H, const double *J, double *P, bool polyconvex)
 {
     for (size_t a = begin; a < end; a++) {
         struct tensor at = load_tensor(F + a * DIM * LANES);
         struct tensor cof = H != NULL ? load_tensor(H + a * DIM * LANES) : cofactor(at);
         double jacobian = J != NULL ? J[a] : determinant(at);
-        store_tensor(P + a * DIM * LANES, stress_of(material, at, cof, jacobian, polyconvex));
+        store_tensor(P + a * DIM * LANES, stress_of(material + a * stride, at, cof, jacobian, polyconvex));
     }
 }
 
-static void stress_range(const struct solver_material_constants *material, size_t begin, size_t end, const double *F,
-                         const double *H, const double *J, double *P)
+static void stress_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                         const double *F, const double *H, const double *J, double *P)
 {
-    range_of(material, begin, end, F, H, J, P, false);
+    range_of(material, stride, begin, end, F, H, J, P, false);
 }
 
-static void stress_range_polyconvex(const struct solver_material_constants *material, size_t begin, size_t end,
-                                    const double *F, const double *H, const double *J, double *P)
+static void stress_range_polyconvex(const struct solver_material_constants *material, size_t stride, size_t begin,
+                                    size_t end, const double *F, const double *H, const double *J, double *P)
 {
-    range_of(material, begin, end, F, H, J, P, true);
+    range_of(material, stride, begin, end, F, H, J, P, true);
 }
 
-static void volumetric_range(const struct solver_material_constants *material, size_t begin, size_t end,
+static void volumetric_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                              const double *J, double *pressure)
 {
     for (size_t a = begin; a < end; a++) {
-        pressure[a] = material->kappa * (J[a] - 1.0);
+        pressure[a] = material[a * stride].kappa * (J[a] - 1.0);
     }
 }
 
@@ -209,7 +209,8 @@ static double square_bound(struct tensor A)
     return bound;
 }
 
-static double fastest(const struct solver_material_constants *material, size_t begin, size_t end, const double *F)
+static double fastest(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                      const double *F)
 {
     double square = 0.0;
     for (size_t a = begin; a < end; a++) {
@@ -217,12 +218,14 @@ static double fastest(const struct solver_material_constants *material, size_t b
         double J = determinant(at);
         double FF = invariant(at);
         double by_J;
-        double shear = coefficients(material, FF, J, &by_J);
+        const struct solver_material_constants *here = material + a * stride;
+        double shear = coefficients(here, FF, J, &by_J);
         double low;
-        square = fmax(square, largest(shear, -2.0 / 3.0 * shear / J, material->kappa + 5.0 / 9.0 * shear * FF / (J * J),
-                                      J, square_bound(at), square_bound(cofactor(at)), &low));
+        double modulus = largest(shear, -2.0 / 3.0 * shear / J, here->kappa + 5.0 / 9.0 * shear * FF / (J * J), J,
+                                 square_bound(at), square_bound(cofactor(at)), &low);
+        square = fmax(square, modulus / here->rho);
     }
-    return sqrt(square / material->rho);
+    return sqrt(square);
 }
 
 const struct solver_material DIM_NAME(solver_neo_hookean) = {

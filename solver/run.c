@@ -27,15 +27,51 @@ static void choose_terms(struct solver_run *run)
     const struct solver_upwind_loops *loops[] = {&solver_upwind_1d, &solver_upwind_2d, &solver_upwind_3d};
     run->loops = loops[scene->dim - 1];
     work->material = solver_material_find(scene->material_model)->in[scene->dim - 1];
-    work->constants = solver_material_constants(scene->E, scene->nu, scene->rho);
-    work->rho = scene->rho;
-    work->cp = work->constants.cp;
-    work->cs = work->constants.cs;
     work->evolves_J = scene->evolved != SOLVER_PF;
     work->evolves_H = scene->evolved == SOLVER_PFHJ;
     work->frozen = work->material->linear;
     work->whole_jump = strcmp(scene->volume_flux, "stress") == 0;
     work->reconstruct = strcmp(scene->reconstruction, "none") != 0;
+}
+
+/* Constants of one particle of a composite body. */
+static bool constants_at(const struct solver_run *run, size_t a, struct solver_material_constants *constants,
+                         struct solver_error *error)
+{
+    size_t dim = (size_t)run->cloud->dim;
+    double X[3] = {0};
+    double value[3];
+    memcpy(X, run->cloud->X + a * dim, dim * sizeof *X);
+    if (!solver_scene_eval(run->scene, SOLVER_MATERIAL_AT, X, 0.0, value, 3, error)) {
+        return false;
+    }
+    if (!(value[0] > 0.0 && value[1] > -1.0 && value[1] < 0.5 && value[2] > 0.0)) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: material.at at X = (%g, %g, %g) m: expected E > 0 Pa, nu in (-1, 0.5), rho > 0 kg/m^3, "
+                           "got %g, %g, %g",
+                           run->scene->path, X[0], X[1], X[2], value[0], value[1], value[2]);
+    }
+    *constants = solver_material_constants(value[0], value[1], value[2]);
+    return true;
+}
+
+static bool set_constants(struct solver_run *run, struct solver_error *error)
+{
+    const struct solver_scene *scene = run->scene;
+    bool composite = solver_scene_has(scene, SOLVER_MATERIAL_AT);
+    size_t count = composite ? run->cloud->count : 1;
+    if (!solver_alloc((void **)&run->constants, count, sizeof *run->constants, "material constants", error)) {
+        return false;
+    }
+    run->constants[0] = solver_material_constants(scene->E, scene->nu, scene->rho);
+    for (size_t a = 0; composite && a < count; a++) {
+        if (!constants_at(run, a, &run->constants[a], error)) {
+            return false;
+        }
+    }
+    run->work.constants = run->constants;
+    run->work.stride = composite ? 1 : 0;
+    return true;
 }
 
 static void bind_stencil(struct solver_run *run)
@@ -94,7 +130,7 @@ static bool initial_state(struct solver_run *run, struct solver_error *error)
             return false;
         }
         for (size_t i = 0; i < dim; i++) {
-            work->p[a * lanes + i] = scene->rho * value[i];
+            work->v[a * lanes + i] = value[i];
         }
     }
     for (size_t a = 0; a < count; a++) {
@@ -115,7 +151,7 @@ static bool initial_state(struct solver_run *run, struct solver_error *error)
         }
     }
     run->loops->measures(work->frozen, 0, count, work->F, work->H, work->J);
-    return solver_faces_constrain(&run->faces, scene, run->cloud, scene->rho, 0.0, lanes, work->p, error);
+    return solver_faces_constrain(&run->faces, scene, run->cloud, 0.0, lanes, work->v, error);
 }
 
 static void find_probes(struct solver_run *run)
@@ -154,7 +190,7 @@ static bool build(struct solver_run *run, struct solver_error *error)
                            scene->path, scene->integrator, scene->stencil, scene->material_model);
     }
     choose_terms(run);
-    if (!solver_cloud_box(&box, &run->cloud, error)) {
+    if (!solver_cloud_box(&box, &run->cloud, error) || !set_constants(run, error)) {
         return false;
     }
     run->threads = choose_threads(scene->threads, run->cloud->count);
@@ -200,6 +236,7 @@ void solver_run_free(struct solver_run *run)
         return;
     }
     solver_run_output_free(run);
+    free(run->constants);
     solver_state_free(&run->state);
     solver_faces_free(&run->faces);
     solver_stencil_free(run->stencil);
@@ -213,6 +250,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
     double state = solver_state_bytes_per_particle(&run->state, true);
     double fields = solver_state_bytes_per_particle(&run->state, false);
     double evolved = 8.0 * (double)run->state.evolved / count;
+    double composite = (double)(run->work.stride * sizeof *run->constants);
     double stencil = (double)solver_stencil_bytes(run->stencil) / count;
     /* per stage: the stencil twice (gradients, rates); fields read by both, rates written; in the update state, start
      * and rate read, state and derived fields written. The first stage writes the start instead of reading it. */
@@ -225,7 +263,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .spacing = run->cloud->spacing,
         .setup_seconds = run->setup_seconds,
         .seconds = run->seconds,
-        .bytes_per_particle = state + stencil,
+        .bytes_per_particle = state + stencil + composite,
         .state_bytes = fields,
         .step_traffic = run->integrator->stages * stage,
         .stencil_residual = closure,

@@ -20,6 +20,7 @@ struct solver_run {
     const struct solver_integrator *integrator;
     const struct solver_upwind_loops *loops;
     struct solver_upwind work;
+    struct solver_material_constants *constants; /* of the body, or of each particle of a composite one */
     struct solver_state state;
     double time, external; /* [s], [J] */
     size_t step;

@@ -54,8 +54,8 @@ static void measures_of(const struct solver_run *run, size_t a, double *H, doubl
 }
 
 /* Mean and von Mises equivalent of the Cauchy stress sigma = P F^T / J; with linear kinematics sigma = P. */
-static void cauchy(const struct solver_run *run, const double *F, double J, const double *P, double *mean,
-                   double *von_mises)
+static void cauchy(const struct solver_run *run, const struct solver_material_constants *of_a, const double *F,
+                   double J, const double *P, double *mean, double *von_mises)
 {
     size_t dim = (size_t)run->cloud->dim;
     double sigma[3][3] = {{0}};
@@ -67,7 +67,7 @@ static void cauchy(const struct solver_run *run, const double *F, double J, cons
         }
     }
     for (size_t i = dim; i < 3; i++) {
-        sigma[i][i] = run->work.material->stress_normal(&run->work.constants, F, J) / (run->work.frozen ? 1.0 : J);
+        sigma[i][i] = run->work.material->stress_normal(of_a, F, J) / (run->work.frozen ? 1.0 : J);
     }
     *mean = (sigma[0][0] + sigma[1][1] + sigma[2][2]) / 3.0;
     double square = 0.0;
@@ -96,15 +96,16 @@ bool solver_run_output(struct solver_run *run, struct solver_output *output, str
         double *F = out + count * at.F + a * dim * dim;
         double *P = out + count * at.P + a * dim * dim;
         for (size_t i = 0; i < dim; i++) {
-            double momentum = work->p[a * lanes + i];
+            double velocity = work->v[a * lanes + i];
             out[count * at.u + a * dim + i] = work->x[a * lanes + i] - run->cloud->X[a * dim + i];
-            out[count * at.v + a * dim + i] = momentum / work->rho;
-            out[count * at.p + a * dim + i] = momentum;
+            out[count * at.v + a * dim + i] = velocity;
+            out[count * at.p + a * dim + i] = work->constants[a * work->stride].rho * velocity;
         }
         rows_of(run, work->F, a, F);
         rows_of(run, work->P, a, P);
         measures_of(run, a, out + count * at.H + a * dim * dim, out + count * at.J + a);
-        cauchy(run, F, out[count * at.J + a], P, out + count * at.pressure + a, out + count * at.von_mises + a);
+        cauchy(run, work->constants + a * work->stride, F, out[count * at.J + a], P, out + count * at.pressure + a,
+               out + count * at.von_mises + a);
     }
     *output = (struct solver_output){.cloud = run->cloud,
                                      .time = run->time,
@@ -127,13 +128,16 @@ static void add_particle(const struct solver_run *run, size_t a, struct solver_t
     const struct solver_upwind *work = &run->work;
     size_t dim = (size_t)run->cloud->dim;
     size_t lanes = run->loops->lanes;
+    const struct solver_material_constants *of_a = work->constants + a * work->stride;
     double V = run->stencil->V[a];
     double p[3] = {0};
     double x[3] = {0};
     double F[9];
     double H[9];
     double J;
-    memcpy(p, work->p + a * lanes, dim * sizeof *p);
+    for (size_t i = 0; i < dim; i++) {
+        p[i] = of_a->rho * work->v[a * lanes + i];
+    }
     memcpy(x, work->x + a * lanes, dim * sizeof *x);
     rows_of(run, work->F, a, F);
     measures_of(run, a, H, &J);
@@ -142,9 +146,9 @@ static void add_particle(const struct solver_run *run, size_t a, struct solver_t
         size_t k = (i + 2) % 3;
         totals->linear[i] += V * p[i];
         totals->angular[i] += V * (x[j] * p[k] - x[k] * p[j]);
-        totals->kinetic += 0.5 * V * p[i] * p[i] / work->rho;
+        totals->kinetic += 0.5 * V * p[i] * p[i] / of_a->rho;
     }
-    totals->strain += V * work->material->energy(&work->constants, F, H, J);
+    totals->strain += V * work->material->energy(of_a, F, H, J);
 }
 
 static bool make_room(struct solver_run *run, struct solver_error *error)
@@ -203,7 +207,7 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
         double *v = history->probe_v + (history->count * history->probe_count + i) * 3;
         for (size_t axis = 0; axis < 3; axis++) {
             u[axis] = axis < dim ? run->work.x[a * lanes + axis] - run->cloud->X[a * dim + axis] : 0.0;
-            v[axis] = axis < dim ? run->work.p[a * lanes + axis] / run->work.rho : 0.0;
+            v[axis] = axis < dim ? run->work.v[a * lanes + axis] : 0.0;
         }
     }
     history->totals[history->count++] = totals;

@@ -46,7 +46,7 @@ bool solver_run_check(struct solver_run *run, struct solver_error *error)
     size_t lanes = run->loops->lanes;
     double square = 0.0; /* as the loops do: what overflows when squared has grown beyond all bounds */
     for (size_t i = 0; i < (size_t)run->cloud->dim; i++) {
-        square += run->work.p[broken * lanes + i] * run->work.p[broken * lanes + i];
+        square += run->work.v[broken * lanes + i] * run->work.v[broken * lanes + i];
     }
     double J;
     if (run->work.J != NULL) {
@@ -87,8 +87,8 @@ static bool evaluate(struct solver_run *run, double t, double *power, struct sol
             run->loops->rates(work, begin, end);
         }
     }
-    return solver_faces_load(&run->faces, run->scene, run->cloud, run->stencil, t, run->loops->lanes, work->p,
-                             work->rho, work->p_rate, power, error);
+    return solver_faces_load(&run->faces, run->scene, run->cloud, run->stencil, work->constants, work->stride, t,
+                             run->loops->lanes, work->v, work->v_rate, power, error);
 }
 
 /* One stage's update of the block's entries [first, last). The first stage of every integrator sets out from the state
@@ -152,8 +152,7 @@ static bool update(struct solver_run *run, const struct solver_stage *stage, dou
         }
         run->loops->stresses(&run->work, begin, end);
     }
-    return solver_faces_constrain(&run->faces, run->scene, run->cloud, run->work.rho, t, run->loops->lanes, run->work.p,
-                                  error);
+    return solver_faces_constrain(&run->faces, run->scene, run->cloud, t, run->loops->lanes, run->work.v, error);
 }
 
 /* The step that the CFL number allows (000_e9ec29e1bde7947d.txt eq. 41). */
@@ -165,7 +164,8 @@ static double largest_step(const struct solver_run *run)
         size_t begin;
         size_t end;
         bounds(run, piece, &begin, &end);
-        fastest = fmax(fastest, run->work.material->fastest(&run->work.constants, begin, end, run->work.F));
+        fastest =
+            fmax(fastest, run->work.material->fastest(run->work.constants, run->work.stride, begin, end, run->work.F));
     }
     return run->scene->cfl * run->cloud->spacing / fastest;
 }

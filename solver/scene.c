@@ -217,13 +217,13 @@ static bool try_formulas(const struct solver_scene *scene, struct solver_error *
     for (int f = 0; f < SOLVER_FORMULAS; f++) {
         double X[3], value[9];
         size_t dim = (size_t)scene->dim;
+        size_t count = f == SOLVER_INITIAL_F ? dim * dim : f == SOLVER_MATERIAL_AT ? 3 : dim;
         if (!solver_scene_has(scene, (enum solver_formula)f))
             continue;
         memcpy(X, scene->lower, sizeof X);
         if (f > SOLVER_FACE_X0 && (f - SOLVER_FACE_X0) % 2)
             X[(f - SOLVER_FACE_X0) / 2] = scene->upper[(f - SOLVER_FACE_X0) / 2];
-        if (!solver_scene_eval(scene, (enum solver_formula)f, X, 0, value, f == SOLVER_INITIAL_F ? dim * dim : dim,
-                               error))
+        if (!solver_scene_eval(scene, (enum solver_formula)f, X, 0, value, count, error))
             return false;
     }
     return true;

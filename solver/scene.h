@@ -31,7 +31,8 @@ enum solver_formula {
     SOLVER_INITIAL_VELOCITY,     /* initial.velocity [m/s] */
     SOLVER_INITIAL_F,            /* initial.F [-]; without it F is the stencil's gradient of x */
     SOLVER_BODY_FORCE,           /* body_force [N/m^3], per unit reference volume */
-    SOLVER_FACE_X0,              /* faces.X0.value: traction [Pa] or velocity [m/s]; X1, Y0, Y1, Z0, Z1 follow */
+    SOLVER_MATERIAL_AT, /* material.at: E [Pa], nu, rho [kg/m^3] at X; without it they are the same everywhere */
+    SOLVER_FACE_X0,     /* faces.X0.value: traction [Pa] or velocity [m/s]; X1, Y0, Y1, Z0, Z1 follow */
     SOLVER_FACE_Z1 = SOLVER_FACE_X0 + 5,
     SOLVER_FORMULAS
 };

@@ -38,6 +38,8 @@ X("material.E", NUMBER, AT(E), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [
 X("material.nu", NUMBER, AT(nu), -1 + DBL_EPSILON / 2, 0.5, 0, "", NEEDED, "number in (-1, 0.5]", "Poisson's ratio")   \
 X("material.rho", NUMBER, AT(rho), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [kg/m^3]",                          \
   "density in the reference configuration")                                                                            \
+X("material.at", FORMULA, SOLVER_MATERIAL_AT, 0, 0, 0, "", OPTIONAL, "function(X, Y, Z) returning E, nu, rho",            \
+  "constants of a composite body, in place of material.E, nu and rho")                                                 \
 X("scheme", WORD, AT(scheme), 0, 0, 0, "upwind | jst ulsph efg adaptle", "upwind", "one of upwind",                    \
   "semi-discrete right-hand side")                                                                                     \
 X("evolved", INDEX, AT(evolved), 0, 0, 0, "pF pFJ pFHJ", "pFHJ", "one of pF, pFJ, pFHJ",                               \

@@ -29,7 +29,7 @@ bool solver_state_create(struct solver_state *state, size_t count, int dim, cons
     size_t derived_count = 0;
     *state = (struct solver_state){.count = count, .lanes = lanes};
 
-    evolved[evolved_count++] = (struct binding){&work->p, &work->p_rate, declare(state, "p", lanes, true)};
+    evolved[evolved_count++] = (struct binding){&work->v, &work->v_rate, declare(state, "v", lanes, true)};
     evolved[evolved_count++] = (struct binding){&work->x, &work->x_rate, declare(state, "x", lanes, true)};
     evolved[evolved_count++] = (struct binding){&work->F, &work->F_rate, declare(state, "F", tensor, true)};
     if (work->evolves_H) {
@@ -53,7 +53,7 @@ bool solver_state_create(struct solver_state *state, size_t count, int dim, cons
             (struct binding){&work->P_gradient, NULL, declare(state, "grad P", d * tensor, false)};
     }
     if (work->reconstruct && least_squares) {
-        derived[derived_count++] = (struct binding){&work->p_gradient, NULL, declare(state, "grad p", tensor, false)};
+        derived[derived_count++] = (struct binding){&work->v_gradient, NULL, declare(state, "grad v", tensor, false)};
     }
 
     size_t padded = (count + 7) / 8 * 8; /* every field starts on a cache line */

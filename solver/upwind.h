@@ -18,21 +18,21 @@ struct solver_upwind {
 
     /* What the scene asks for. */
     const struct solver_material *material;
-    struct solver_material_constants constants;
-    double rho;
-    double cp, cs;    /* wave speeds of the Riemann dissipation [m/s] (eq. 28) */
-    bool evolves_J;   /* {p,F,J} and {p,F,H,J} */
-    bool evolves_H;   /* {p,F,H,J} */
+    const struct solver_material_constants *constants; /* [1], or [count] in a composite body */
+    size_t stride;                                     /* 0, or 1 in a composite body */
+    bool evolves_J;                                    /* {p,F,J} and {p,F,H,J} */
+    bool evolves_H;                                    /* {p,F,H,J} */
     bool frozen;      /* linear kinematics: H = I in the equation of J, normals n = N */
     bool whole_jump;  /* dissipation of J by the jump of the whole stress, as printed in eq. 27 */
     bool reconstruct; /* linear reconstruction (eq. 34); without it the dissipation is of first order */
 
-    /* State; NULL where the scene does not ask for it. */
-    double *p, *x, *F, *H, *J; /* evolved */
-    double *p_rate, *x_rate, *F_rate, *H_rate, *J_rate;
+    /* State; NULL where the scene does not ask for it. The linear momentum p = rho v is evolved as the velocity, which
+     * is continuous where materials meet. */
+    double *v, *x, *F, *H, *J; /* evolved */
+    double *v_rate, *x_rate, *F_rate, *H_rate, *J_rate;
     double *P;                 /* stress */
     double *cofactor;          /* H, or cof F where H is not evolved but the equation of J needs it */
-    double *p_gradient;        /* tensor: least-squares gradient of p; NULL: rho F_rate serves */
+    double *v_gradient;        /* tensor: least-squares gradient of v; NULL: F_rate serves */
     double *pressure;          /* [count] U'(J); for the dissipation of J by its jump */
     double *pressure_gradient; /* vector */
     double *P_gradient;        /* [count][DIM (derivative)] tensors; for the dissipation of J by the jump of P */
@@ -42,7 +42,7 @@ struct solver_upwind_loops {
     size_t lanes;
     /* F_rate = grad v (eq. 38b), x_rate = v, and the gradients that the reconstruction needs. */
     void (*gradients)(const struct solver_upwind *work, size_t begin, size_t end);
-    /* p_rate without tractions and body forces (eq. 38a), H_rate, J_rate (eq. 38c, 38d). Reads the gradients of
+    /* v_rate without tractions and body forces (eq. 38a), H_rate, J_rate (eq. 38c, 38d). Reads the gradients of
      * neighbours: all of them must be there. */
     void (*rates)(const struct solver_upwind *work, size_t begin, size_t end);
     /* Stress and, where needed, cofactor from the state. */

@@ -60,16 +60,15 @@ static inline vec scalar_gradient(const struct solver_upwind *work, size_t a, co
 
 static void gradients(const struct solver_upwind *work, size_t begin, size_t end)
 {
-    double per_rho = 1.0 / work->rho;
     for (size_t a = begin; a < end; a++) {
         double half_per_V = 0.5 / work->V[a];
-        struct tensor G = vector_gradient(work, a, work->p, work->pair, PAIR);
+        struct tensor G = vector_gradient(work, a, work->v, work->pair, PAIR);
         for (int I = 0; I < DIM; I++) {
-            store(work->F_rate + a * TENSOR + I * LANES, G.column[I] * (half_per_V * per_rho));
+            store(work->F_rate + a * TENSOR + I * LANES, G.column[I] * half_per_V);
         }
-        store(work->x_rate + a * LANES, load(work->p + a * LANES) * per_rho);
-        if (work->p_gradient != NULL) {
-            store_tensor(work->p_gradient + a * TENSOR, vector_gradient(work, a, work->p, work->least_squares, DIM));
+        store(work->x_rate + a * LANES, load(work->v + a * LANES));
+        if (work->v_gradient != NULL) {
+            store_tensor(work->v_gradient + a * TENSOR, vector_gradient(work, a, work->v, work->least_squares, DIM));
         }
         const double *weights = work->least_squares != NULL ? work->least_squares : work->pair;
         size_t stride = work->least_squares != NULL ? DIM : PAIR;
@@ -88,17 +87,31 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
 struct sums {
     vec force;       /* twice the internal force: sum_b P_b D_ab + P_a sum_b C_ab */
     vec dissipation; /* twice V_a D(p_a) (eq. 30) */
-    double volume;   /* 2 cp rho V_a D(J_a) (eq. 30) */
+    double volume;   /* 2 z_p V_a D(J_a) (eq. 30) */
 };
 
-/* Upwind flux of p across the pair: A S (p+ - p-), twice (eq. 27, 28), with the states reconstructed at mid-distance.
- * n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) = along (along . jump) / |along|^2. */
-static inline vec momentum_flux(const struct solver_upwind *work, vec jump, vec along, double face)
+/* Impedances of a pair: z v jumps in the acoustic Riemann problem of eq. 27, 28, with 2 z_a z_b / (z_a + z_b) where
+ * materials meet. */
+struct impedances {
+    double p, s;
+};
+
+static inline struct impedances pair_impedances(const struct solver_material_constants *of_a,
+                                                const struct solver_material_constants *of_b)
+{
+    return (struct impedances){.p = 2.0 * of_a->zp * of_b->zp / (of_a->zp + of_b->zp),
+                               .s = 2.0 * of_a->zs * of_b->zs / (of_a->zs + of_b->zs)};
+}
+
+/* Upwind flux of momentum across the pair: A S (p+ - p-), twice (eq. 27, 28), from the jump of velocity, with the
+ * states reconstructed at mid-distance. n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) =
+ * along (along . jump) / |along|^2. */
+static inline vec momentum_flux(struct impedances z, vec jump, vec along, double face)
 {
     double normal;
     double square;
     dot_and_square(along, jump, &normal, &square);
-    return face * (work->cs * jump + ((work->cp - work->cs) * normal / square) * along);
+    return face * (z.s * jump + ((z.p - z.s) * normal / square) * along);
 }
 
 /* Reconstructed jump of the stress times the pair's distance, (P+ - P-) d (eq. 27, 34). */
@@ -130,7 +143,7 @@ static inline double pressure_jump(const struct solver_upwind *work, size_t a, s
     return jump;
 }
 
-/* Upwind flux of J (eq. 27, 28, 30, 33), times 2 c_p rho: A (n . (P+ - P-) N) (n . H^Ave N). Eq. 33 as printed has the
+/* Upwind flux of J (eq. 27, 28, 30, 33), times 2 z_p: A (n . (P+ - P-) N) (n . H^Ave N). Eq. 33 as printed has the
  * sign that would feed energy in; this is that of eq. 30. A N stands for C_ab, as in the flux of p. By default only the
  * volumetric part U'(J) H of the stress jumps: J is conjugate to it alone, so that without reconstruction the flux
  * cannot feed energy in, and its gradient is a vector instead of a third-order tensor. */
@@ -153,18 +166,19 @@ static inline double volume_flux(const struct solver_upwind *work, size_t a, siz
 
 /* What the scene asks for, as constants where the sums are called, so that each combination is a loop of its own. */
 struct terms {
-    bool frozen, reconstruct, transposed, volume;
+    bool frozen, reconstruct, transposed, volume, composite;
 };
 
 static inline __attribute__((always_inline)) struct sums sum_pairs(const struct solver_upwind *work, size_t a,
                                                                    struct terms terms)
 {
     struct sums sums = {.volume = 0.0};
-    const double *slope = work->p_gradient != NULL ? work->p_gradient : work->F_rate;
-    double half_slope = -0.5 * (work->p_gradient != NULL ? 1.0 : work->rho);
+    const double *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
+    const struct solver_material_constants *of_a = work->constants + a * work->stride;
+    struct impedances z = {of_a->zp, of_a->zs};
     vec X_a = load(work->X + a * LANES);
     vec x_a = load((terms.frozen ? work->X : work->x) + a * LANES);
-    vec p_a = load(work->p + a * LANES);
+    vec v_a = load(work->v + a * LANES);
     struct tensor slope_a = load_tensor(slope + a * TENSOR);
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
         size_t b = work->neighbour[ab];
@@ -173,15 +187,21 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
         const double *P_b = work->P + b * TENSOR;
         vec distance = load(work->X + b * LANES) - X_a;
         vec along = terms.frozen ? distance : load(work->x + b * LANES) - x_a;
-        vec jump = load(work->p + b * LANES) - p_a;
+        vec jump = load(work->v + b * LANES) - v_a;
+        bool alike = true;
+        if (terms.composite) {
+            const struct solver_material_constants *of_b = work->constants + b;
+            z = pair_impedances(of_a, of_b);
+            alike = of_a->kappa == of_b->kappa; /* where materials meet the volumetric stress has a jump of its own */
+        }
         for (int I = 0; I < DIM; I++) {
             sums.force += load(P_b + I * LANES) * D[I];
             if (terms.reconstruct) {
-                jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * (half_slope * distance[I]);
+                jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * (-0.5 * distance[I]);
             }
         }
-        sums.dissipation += momentum_flux(work, jump, along, C[DIM]);
-        if (terms.volume) {
+        sums.dissipation += momentum_flux(z, jump, along, C[DIM]);
+        if (terms.volume && alike) {
             sums.volume += volume_flux(work, a, b, distance, along, C[DIM], terms.reconstruct);
         }
     }
@@ -190,15 +210,16 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
 
 static inline void finish(const struct solver_upwind *work, size_t a, struct sums sums)
 {
+    const struct solver_material_constants *of_a = work->constants + a * work->stride;
     double per_V = 1.0 / work->V[a];
     for (int I = 0; I < DIM; I++) {
         sums.force += load(work->P + a * TENSOR + I * LANES) * work->row_sum[a * DIM + (size_t)I];
     }
-    store(work->p_rate + a * LANES, (0.5 * per_V) * (sums.force + sums.dissipation));
+    store(work->v_rate + a * LANES, (0.5 * per_V / of_a->rho) * (sums.force + sums.dissipation));
     struct tensor G = load_tensor(work->F_rate + a * TENSOR);
     if (work->evolves_J) {
         double compression = work->frozen ? trace(G) : contract(load_tensor(work->cofactor + a * TENSOR), G);
-        work->J_rate[a] = compression + sums.volume * per_V / (2.0 * work->cp * work->rho);
+        work->J_rate[a] = compression + sums.volume * per_V / (2.0 * of_a->zp);
     }
     if (work->evolves_H) {
         struct tensor F = work->frozen ? identity() : load_tensor(work->F + a * TENSOR);
@@ -216,7 +237,7 @@ static inline __attribute__((always_inline)) void rates_with(const struct solver
 
 static void rates(const struct solver_upwind *work, size_t begin, size_t end)
 {
-    bool plain = work->reconstruct && work->transposed == NULL;
+    bool plain = work->reconstruct && work->transposed == NULL && work->stride == 0;
     bool volume = work->evolves_J;
     if (plain && work->frozen && !volume) {
         rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true});
@@ -231,7 +252,8 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end)
                    (struct terms){.frozen = work->frozen,
                                   .reconstruct = work->reconstruct,
                                   .transposed = work->transposed != NULL,
-                                  .volume = volume});
+                                  .volume = volume,
+                                  .composite = work->stride != 0});
     }
 }
 
@@ -243,19 +265,19 @@ static void stresses(const struct solver_upwind *work, size_t begin, size_t end)
         }
     }
     if (work->pressure != NULL) {
-        work->material->volumetric_range(&work->constants, begin, end, work->J, work->pressure);
+        work->material->volumetric_range(work->constants, work->stride, begin, end, work->J, work->pressure);
     }
-    work->material->stress_range(&work->constants, begin, end, work->F, work->cofactor, work->J, work->P);
+    work->material->stress_range(work->constants, work->stride, begin, end, work->F, work->cofactor, work->J, work->P);
 }
 
 static size_t first_broken(const struct solver_upwind *work, size_t begin, size_t end)
 {
     for (size_t a = begin; a < end; a++) {
-        vec p = load(work->p + a * LANES);
+        vec v = load(work->v + a * LANES);
         struct tensor F = load_tensor(work->F + a * TENSOR);
         double J = work->J != NULL ? work->J[a] : determinant(F);
         bool inverted = !work->frozen && !(J > 0.0);
-        if (inverted || !isfinite(J) || !isfinite(dot(p, p)) || !isfinite(contract(F, F))) {
+        if (inverted || !isfinite(J) || !isfinite(dot(v, v)) || !isfinite(contract(F, F))) {
             return a;
         }
     }

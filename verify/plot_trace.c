@@ -109,9 +109,8 @@ void verify_plot_trace(FILE *file, const struct verify_study *study, const struc
                       trace->count > 50 ? "1.5" : "3.5");
     }
     (void)fprintf(file,
-                  "<circle class=\"measured\" cx=\"%d\" cy=\"%d\" r=\"3.5\"/><text x=\"%d\" y=\"%d\">computed</text>"
-                  "<polyline class=\"published\" points=\"%d,%d %d,%d\"/><text x=\"%d\" y=\"%d\">exact"
-                  "</text></svg>\n",
-                  RIGHT - 170, TOP - 16, RIGHT - 160, TOP - 12, RIGHT - 75, TOP - 16, RIGHT - 50, TOP - 16, RIGHT - 42,
+                  "<text x=\"%d\" y=\"%d\" fill=\"#0b5394\">&#9679;</text><text x=\"%d\" y=\"%d\">computed</text>"
+                  "<polyline class=\"published\" points=\"%d,%d %d,%d\"/><text x=\"%d\" y=\"%d\">exact</text></svg>\n",
+                  RIGHT - 174, TOP - 12, RIGHT - 160, TOP - 12, RIGHT - 75, TOP - 16, RIGHT - 50, TOP - 16, RIGHT - 42,
                   TOP - 12);
 }

@@ -58,8 +58,8 @@ bool verify_study_judge(struct verify_study *study, struct solver_error *error);
 /* The published value of an error at n spacings; NaN if there is none. */
 double verify_published(const struct solver_scene *scene, int n, const char *error_name);
 
-/* Errors worth a column: p and P, those published, and those that a gate judges. Returns how many. Fails with 0
- * (SOLVER_BAD_INPUT) on a published name that is no error. */
+/* Errors worth a column: those published and those that a gate judges; p and P where there are none. Returns how many.
+ * Fails with 0 (SOLVER_BAD_INPUT) on a published name that is no error. */
 size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], struct solver_error *error);
 
 #endif

@@ -89,13 +89,13 @@ static void fastest_bounds_speeds(const struct sample *sample)
     for (size_t a = 0; a < SAMPLES; a++) {
         pad(dim, F, a, field);
     }
-    double rest = sample->material->fastest(&sample->constants, 0, SAMPLES, field);
+    double rest = sample->material->fastest(&sample->constants, 0, 0, SAMPLES, field);
     expect(sample, "bound of the speeds at rest", fabs(rest / sample->constants.cp - 1.0), 1e-14);
     double overall = 0.0;
     for (size_t a = 0; a < SAMPLES; a++) {
         random_deformation(dim, F);
         pad(dim, F, a, field);
-        double bound = sample->material->fastest(&sample->constants, a, a + 1, field);
+        double bound = sample->material->fastest(&sample->constants, 0, a, a + 1, field);
         overall = fmax(overall, bound);
         for (int i = 0; i < 50; i++) {
             double N[3];
@@ -107,7 +107,7 @@ static void fastest_bounds_speeds(const struct sample *sample)
         expect(sample, "bound over ten times the p-wave of an eightfold stretch", bound,
                80.0 * (sample->constants.cp + sample->constants.cs));
     }
-    double together = sample->material->fastest(&sample->constants, 0, SAMPLES, field);
+    double together = sample->material->fastest(&sample->constants, 0, 0, SAMPLES, field);
     expect(sample, "bound over a range against that of its particles", fabs(together - overall), 0.0);
     free(field);
 }
@@ -138,8 +138,8 @@ static void stress_range(const struct sample *sample)
         pad(dim, rows[a], a, field[0]);
         pad(dim, H, a, field[1]);
     }
-    sample->material->stress_range(&sample->constants, BEGIN, END, field[0], field[1], J, field[2]);
-    sample->material->stress_range(&sample->constants, BEGIN, END, field[0], NULL, NULL, field[3]);
+    sample->material->stress_range(&sample->constants, 0, BEGIN, END, field[0], field[1], J, field[2]);
+    sample->material->stress_range(&sample->constants, 0, BEGIN, END, field[0], NULL, NULL, field[3]);
     for (size_t a = 0; a < COUNT; a++) {
         bool inside = a >= BEGIN && a < END;
         for (size_t I = 0; I < dim; I++) {
@@ -168,7 +168,7 @@ static void volumetric_range(const struct sample *sample)
     for (size_t a = 0; a < COUNT; a++) {
         J[a] = uniform(0.3, 3.0);
     }
-    sample->material->volumetric_range(&sample->constants, BEGIN, END, J, pressure);
+    sample->material->volumetric_range(&sample->constants, 0, BEGIN, END, J, pressure);
     for (size_t a = 0; a < COUNT; a++) {
         double stretch = cbrt(J[a]);
         double area = sample->material->linear ? 1.0 : stretch * stretch;
