@@ -9,8 +9,13 @@
 struct bar bar_make(double lower, double length, double E, double rho)
 {
     double c = sqrt(E / rho);
-    return (struct bar){
-        .lower = lower, .upper = lower + length, .E = E, .rho = rho, .c = c, .Z = rho * c, .T = length / c};
+    return (struct bar){.lower = lower,
+                        .upper = lower + length,
+                        .E = E,
+                        .rho = rho,
+                        .c = c,
+                        .Z = rho * c,
+                        .T = (lower + length - lower) / c};
 }
 
 void bar_state(const struct bar *bar, double u, double v, double stress, struct oracle_state *state)

@@ -6,6 +6,7 @@
 
 /* One line per oracle: the name of its struct oracle_kind. */
 #define ORACLE_TABLE(ENTRY)                                                                                            \
+    ENTRY(oracle_bimaterial_wave)                                                                                      \
     ENTRY(oracle_cable)                                                                                                \
     ENTRY(oracle_cantilever)                                                                                           \
     ENTRY(oracle_swinging_cube)

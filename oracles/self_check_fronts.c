@@ -14,6 +14,9 @@ static const double LIMIT_STEP = 0.02;
 /* Front to front, in units of the round-off of their places. */
 static const double NEAR = 4096;
 
+/* Magnitudes of the weights of a slope, summed: how much of the round-off of the unit matrix in F it may show. */
+static const double WEIGHTS = 618;
+
 static double limit_bound(const struct self_check *check)
 {
     return 1024 * self_check_round_off(check);
@@ -81,7 +84,7 @@ static void break_at(const struct self_check *check, const struct self_check_bod
 {
     double left[FIELDS], right[FIELDS], left_slope[FIELDS], right_slope[FIELDS], jump[FIELDS], bend[FIELDS];
     double c = self_check_speed(body), step = fmin(LIMIT_STEP * self_check_radian(check, body), free / (NODES + 1));
-    double s = front->speed, bound = limit_bound(check), v_size = check->of.v + c * 2 * DBL_EPSILON / bound;
+    double s = front->speed, bound = limit_bound(check), v_size = check->of.v + c * WEIGHTS * DBL_EPSILON / bound;
     one_sided(check, front->X, t, -step, left, left_slope);
     one_sided(check, front->X, t, step, right, right_slope);
     for (int i = 0; i < FIELDS; i++) {

@@ -26,7 +26,7 @@ enum front_fault {
 static struct {
     const struct oracle_kind *kind;
     int component;
-    double factor, shift, tilt;
+    double factor, shift, tilt, step; /* step: for X > 1 alone, where the joint of a typical body of two parts is */
     enum front_fault fault;
     double kinetic_factor, strain_factor;
     double largest[NUMBERS]; /* magnitudes seen, without the unit matrix of F */
@@ -43,7 +43,8 @@ static void spoiled_state(const struct oracle *oracle, const double X[3], double
         double unit = i >= UNIT_MATRIX && i < UNIT_MATRIX + 9 && (i - UNIT_MATRIX) % 4 == 0 ? 1 : 0;
         spoil.largest[i] = fmax(spoil.largest[i], fabs(n[i] - unit));
         if (i == spoil.component) {
-            n[i] = unit + (n[i] - unit) * (1 + spoil.factor) + spoil.shift + spoil.tilt * X[0];
+            n[i] = unit + (n[i] - unit) * (1 + spoil.factor) + spoil.shift + spoil.tilt * X[0] +
+                   (X[0] > 1 ? spoil.step : 0);
         }
     }
     memcpy(state, n, sizeof n);
@@ -306,6 +307,9 @@ static void spoil_each_component(const struct oracle_kind *kind, const struct or
         spoil.shift = 0;
         CU_ASSERT_TRUE(caught(&copy, oracle, failed));
         spoil.tilt = 0;
+        spoil.step = kind->fronts != NULL ? 1e-6 * field_size(largest, i) : 0;
+        CU_ASSERT_TRUE(spoil.step == 0 || caught(&copy, oracle, failed));
+        spoil.step = 0;
         spoil.factor = 1e-6;
         spoil.shift = 0;
         CU_ASSERT_TRUE(largest[i] < 1e-3 * field_size(largest, i) || caught(&copy, oracle, failed));
