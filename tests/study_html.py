@@ -2,7 +2,6 @@
 balanced, nothing escapes, nothing loaded from elsewhere, both pictures inside, every plotted point within its frame."""
 import base64
 import html.parser
-import math
 import os
 import re
 import shutil
@@ -17,6 +16,7 @@ class Page(html.parser.HTMLParser):
     def __init__(self):
         super().__init__()
         self.open, self.seen, self.pictures, self.points, self.heading = [], [], [], 0, ""
+        self.frame = None
 
     def handle_startendtag(self, tag, attributes):
         self.look(tag, dict(attributes))
@@ -41,9 +41,15 @@ class Page(html.parser.HTMLParser):
             assert value.startswith("data:"), f"{tag} loads {value[:60]}"
         if tag == "img":
             self.pictures.append(base64.b64decode(attributes["src"].split(",", 1)[1], validate=True))
+        if tag == "svg":
+            self.frame = None
+        if tag == "rect" and attributes.get("class") == "frame":
+            self.frame = [float(attributes[name]) for name in ("x", "y", "width", "height")]
         if tag == "circle":
             x, y = float(attributes["cx"]), float(attributes["cy"])
-            assert math.isfinite(x) and 70 <= x <= 500 and 20 <= y <= 340, f"a point lies at {x}, {y}"
+            left, top, width, height = self.frame
+            inside = left <= x <= left + width and top <= y <= top + height
+            assert inside, f"a point lies at {x}, {y}, its frame is {self.frame}"
             self.points += 1
 
 

@@ -43,16 +43,18 @@ static double tick_step(double low, double high)
 static void draw_axes(FILE *file, const struct axes *axes, const struct verify_trace *trace)
 {
     double step = tick_step(axes->u0, axes->u1);
-    for (double i = ceil(axes->u0 / step); i * step <= axes->u1; i++) {
-        double y = y_of(axes, i * step);
+    for (long i = (long)ceil(axes->u0 / step); (double)i * step <= axes->u1; i++) {
+        double u = (double)i * step;
+        double y = y_of(axes, u);
         (void)fprintf(file, "<line class=\"grid\" x1=\"%d\" y1=\"%.1f\" x2=\"%d\" y2=\"%.1f\"/>", LEFT, y, RIGHT, y);
-        (void)fprintf(file, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%.6g</text>\n", LEFT - 8, y + 4, i * step);
+        (void)fprintf(file, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%.6g</text>\n", LEFT - 8, y + 4, u);
     }
     step = tick_step(axes->t0, axes->t1);
-    for (double i = ceil(axes->t0 / step); i * step <= axes->t1; i++) {
-        double x = x_of(axes, i * step);
+    for (long i = (long)ceil(axes->t0 / step); (double)i * step <= axes->t1; i++) {
+        double t = (double)i * step;
+        double x = x_of(axes, t);
         (void)fprintf(file, "<line class=\"grid\" x1=\"%.1f\" y1=\"%d\" x2=\"%.1f\" y2=\"%d\"/>", x, TOP, x, BOTTOM);
-        (void)fprintf(file, "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">%.6g</text>\n", x, BOTTOM + 18, i * step);
+        (void)fprintf(file, "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">%.6g</text>\n", x, BOTTOM + 18, t);
     }
     (void)fprintf(file, "<rect class=\"frame\" x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\"/>\n", LEFT, TOP,
                   RIGHT - LEFT, BOTTOM - TOP);
