@@ -1,0 +1,320 @@
+/* The cantilever as a body against other methods: finite elements, beam theory where it is exact, the theory of corner
+ * singularities; its modes against one another; and what its self-check and its creation refuse. */
+#include "oracles/beam.h"
+#include "oracles/cantilever.h"
+#include "tests/unit/plane_elements.h"
+#include "tests/unit/unit.h"
+
+#include <gsl/gsl_integration.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { LENGTH, HEIGHT, MODE, TIP, YOUNG, POISSON, DENSITY, PARAMETERS };
+
+static const double paper[PARAMETERS] = {0.2, 0.02, 1, 0.57008771254957, 1998447.2049689441, 0.39751552795031056, 1000};
+
+static const struct oracle_kind *the_kind(void)
+{
+    const struct oracle_kind *kind = oracle_find("cantilever");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(kind);
+    return kind;
+}
+
+/* The paper's, but for one parameter. */
+static struct oracle *create_with(int parameter, double value)
+{
+    double values[PARAMETERS];
+    struct oracle *oracle = NULL;
+    char why[ORACLE_WHY] = "";
+    memcpy(values, paper, sizeof values);
+    values[parameter] = value;
+    bool created = oracle_create(the_kind(), values, &oracle, why);
+    if (!created) {
+        printf("%s\n", why);
+    }
+    CU_ASSERT_TRUE_FATAL(created);
+    return oracle;
+}
+
+static double figure(const struct oracle *oracle, const char *name)
+{
+    struct oracle_figure figures[ORACLE_FIGURES];
+    size_t count = the_kind()->figures(oracle, figures);
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(figures[i].name, name) == 0) {
+            return figures[i].value;
+        }
+    }
+    CU_FAIL_FATAL("no such figure");
+    return NAN;
+}
+
+/* Frequencies of finite elements are upper bounds that fall towards the oracle's, which their extrapolation meets. */
+static void agrees_with_finite_elements(void)
+{
+    struct oracle *o = create_with(MODE, 1);
+    struct plane_body body = {0.2, 0.02, 3.25e6 - 2 * 7.15e5 / 3, 7.15e5, 1000};
+    double w[3];
+    for (int i = 0; i < 3; i++) {
+        w[i] = plane_frequency(&body, 3 << i);
+        CU_ASSERT_TRUE(w[i] > o->frequency && (i == 0 || w[i] < w[i - 1]));
+    }
+    double before = w[0] - w[1], after = w[1] - w[2];
+    CU_ASSERT_TRUE(before > 10 * after);
+    CU_ASSERT_DOUBLE_EQUAL((w[2] - after * after / (before - after)) / o->frequency, 1, 1e-6);
+    the_kind()->destroy(o);
+}
+
+/* Without Poisson's effect the clamp bends nothing but what a beam's does: Timoshenko's period is right but for the
+ * cube of the slenderness, although none of his equations is solved here. */
+static void meets_timoshenko_without_poisson_effect(void)
+{
+    double distance[2];
+    for (int i = 0; i < 2; i++) {
+        double values[PARAMETERS];
+        struct oracle *o = NULL;
+        char why[ORACLE_WHY] = "";
+        memcpy(values, paper, sizeof values);
+        values[POISSON] = 0;
+        values[LENGTH] = i == 0 ? 0.2 : 0.4;
+        CU_ASSERT_TRUE_FATAL(oracle_create(the_kind(), values, &o, why));
+        distance[i] = figure(o, "error of Timoshenko theory");
+        the_kind()->destroy(o);
+    }
+    CU_ASSERT_TRUE(distance[0] > 0 && distance[0] < 1.2e-5);
+    CU_ASSERT_DOUBLE_EQUAL(distance[0] / distance[1], 8, 0.1);
+}
+
+/* M. L. Williams, J. Appl. Mech. 19 (1952) 526: displacements go as r^a at a right-angled corner between a clamped and
+ * a free side, sin^2(a pi/2) = ((k + 1)^2 - 4 a^2) / (4 k), k = 3 - 4 nu. */
+static double corner_exponent(double nu)
+{
+    double k = 3 - 4 * nu, lower = 0.5, upper = 0.999;
+    for (int i = 0; i < 60; i++) {
+        double a = (lower + upper) / 2, s = sin(a * 1.5707963267948966);
+        *(s * s < ((k + 1) * (k + 1) - 4 * a * a) / (4 * k) ? &lower : &upper) = a;
+    }
+    return lower;
+}
+
+/* Every layer makes the corner element smaller by the grading, and the error of the frequency by its power 2 a. */
+static void converges_as_the_corner_singularity_says(void)
+{
+    static const double nu[] = {0.3, 0.39751552795031056, 0.45};
+    for (size_t n = 0; n < sizeof nu / sizeof *nu; n++) {
+        struct ritz_problem problem = {.length = 20, .lambda = 2 * nu[n] / (1 - 2 * nu[n]), .mode = 1};
+        double w[3];
+        for (int i = 0; i < 3; i++) {
+            struct ritz_mesh mesh = {
+                .layers = i + 1, .tip_layers = 1, .grading = 0.2, .growth = 2, .corner = 8, .middle = 12};
+            struct ritz_mode mode;
+            char why[ORACLE_WHY] = "";
+            CU_ASSERT_TRUE_FATAL(ritz_solve(&problem, &mesh, &mode, why));
+            w[i] = mode.frequency;
+            ritz_free(&mode);
+        }
+        CU_ASSERT_TRUE(w[0] > w[1] && w[1] > w[2]);
+        double power = log((w[1] - w[2]) / (w[0] - w[1])) / log(0.2);
+        CU_ASSERT_DOUBLE_EQUAL(power, 2 * corner_exponent(nu[n]), 0.01);
+    }
+}
+
+/* As many digits as it says: other elements, extrapolated on their own, give the same. */
+static void is_as_certain_as_it_says(void)
+{
+    struct oracle *o = create_with(MODE, 1);
+    struct ritz_problem problem = {.length = 20, .lambda = o->lambda / o->mu, .mode = 1};
+    struct ritz_mesh mesh = {.layers = 5, .tip_layers = 3, .grading = 0.18, .growth = 1.7, .corner = 6, .middle = 11};
+    struct ritz_limit limit;
+    char why[ORACLE_WHY] = "";
+    CU_ASSERT_TRUE_FATAL(ritz_converge(&problem, &mesh, &limit, why));
+    double distance = fabs(limit.frequency / o->solution.frequency - 1);
+    CU_ASSERT_TRUE(o->solution.uncertainty < 1e-8);
+    CU_ASSERT_TRUE(distance < o->solution.uncertainty && distance < 1e-9);
+    CU_ASSERT_DOUBLE_EQUAL(figure(o, "period"), 0.2553288117, 1e-9);
+    CU_ASSERT_DOUBLE_EQUAL(figure(o, "thin-plate period"), 0.254129, 5e-7);
+    ritz_free(&limit.mode);
+    the_kind()->destroy(o);
+}
+
+/* A body in plane stress tends to the beam in plane stress, from above: the clamp also keeps it from getting thinner.
+ */
+static void holds_in_plane_stress(void)
+{
+    double nu = 0.3, distance[2];
+    for (int i = 0; i < 2; i++) {
+        double L = i == 0 ? 20 : 40;
+        struct ritz_problem problem = {.length = 2 * L, .lambda = 2 * nu / (1 - nu), .mode = 1};
+        struct ritz_mesh mesh = {.layers = 3, .tip_layers = 1, .grading = 0.15, .growth = 2, .corner = 5, .middle = 11};
+        struct oracle_beam beam = {L, 1, 2 * (1 + nu), nu, 1, true}; /* mu = 1 */
+        struct oracle_beam_mode thick;
+        struct ritz_mode mode;
+        char why[ORACLE_WHY] = "";
+        CU_ASSERT_TRUE_FATAL(ritz_solve(&problem, &mesh, &mode, why));
+        CU_ASSERT_TRUE_FATAL(oracle_beam_timoshenko(&beam, 1, &thick, why));
+        distance[i] = 2 * mode.frequency / thick.frequency - 1; /* per half height */
+        ritz_free(&mode);
+    }
+    CU_ASSERT_TRUE(distance[0] > 0 && distance[0] < 6e-4);
+    CU_ASSERT_DOUBLE_EQUAL(distance[0] / distance[1], 2, 0.1); /* what the clamp adds goes with H / L */
+}
+
+/* Integral of p of one mode times v of another, by ten-point Gauss rules in the elements of the first. */
+static double overlap(const struct oracle *a, const struct oracle *b)
+{
+    const struct axis *x = &a->solution.mode.x, *y = &a->solution.mode.y;
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(14);
+    double half = a->given.height / 2, sum = 0;
+    for (int cell = 0; cell < x->elements * y->elements; cell++) {
+        for (size_t n = 0; n < 14 * 14; n++) {
+            int ex = cell / y->elements, ey = cell % y->elements;
+            double X[3] = {0}, wx, wy;
+            struct oracle_state s, t;
+            (void)gsl_integration_glfixed_point(x->node[ex], x->node[ex + 1], n / 14, &X[0], &wx, rule);
+            (void)gsl_integration_glfixed_point(y->node[ey], y->node[ey + 1], n % 14, &X[1], &wy, rule);
+            X[0] *= half;
+            X[1] *= half;
+            the_kind()->state(a, X, 0, &s);
+            the_kind()->state(b, X, 0, &t);
+            sum += 2 * half * half * wx * wy * (s.p[0] * t.v[0] + s.p[1] * t.v[1]);
+        }
+    }
+    gsl_integration_glfixed_table_free(rule);
+    return sum;
+}
+
+/* Mode n crosses the middle line n - 1 times, further than a height from the clamp, where Poisson's effect pushes the
+ * line aside; and it is orthogonal to all others. */
+static void modes_are_what_their_numbers_say(void)
+{
+    struct oracle *mode[3];
+    for (int n = 0; n < 3; n++) {
+        int crossings = 0;
+        double last = 0, energy[2];
+        mode[n] = create_with(MODE, n + 1);
+        for (int i = 10; i <= 100; i++) {
+            struct oracle_state s;
+            double X[3] = {0.2 * i / 100, 0, 0};
+            the_kind()->state(mode[n], X, 0, &s);
+            crossings += s.v[1] * last < 0;
+            last = s.v[1];
+        }
+        CU_ASSERT_EQUAL(crossings, n);
+        CU_ASSERT_TRUE(n == 0 || mode[n]->frequency > mode[n - 1]->frequency);
+        the_kind()->energy(mode[n], 0, &energy[0], &energy[1]);
+        CU_ASSERT_DOUBLE_EQUAL(overlap(mode[n], mode[n]) / (2 * energy[0]), 1, 1e-10);
+        for (int m = 0; m < n; m++) {
+            CU_ASSERT_DOUBLE_EQUAL(overlap(mode[n], mode[m]) / (2 * energy[0]), 0, 2e-7);
+        }
+    }
+    for (int n = 0; n < 3; n++) {
+        the_kind()->destroy(mode[n]);
+    }
+}
+
+/* Fields of another problem, or with another clock, under the check of the true one. */
+static struct {
+    const struct oracle *other;
+    double clock;
+} now;
+
+static void other_state(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state)
+{
+    the_kind()->state(now.other != NULL ? now.other : oracle, X, t * (1 + now.clock), state);
+    for (int i = 0; i < 3; i++) {
+        state->v[i] *= 1 + now.clock;
+        state->p[i] *= 1 + now.clock;
+    }
+}
+
+static bool caught(const struct oracle *oracle)
+{
+    struct oracle_kind spoiled = *the_kind();
+    struct oracle_check line[ORACLE_LAWS];
+    size_t count = 0;
+    spoiled.state = other_state;
+    return !oracle_self_check(&spoiled, oracle, line, &count);
+}
+
+static void another_problem_is_caught(void)
+{
+    struct oracle *o = create_with(MODE, 1);
+    now.other = NULL;
+    now.clock = 0;
+    CU_ASSERT_FALSE(caught(o)); /* going through the copy is no fault */
+    now.clock = 1e-6;
+    CU_ASSERT_TRUE(caught(o));
+    now.clock = 0;
+    for (int i = 0; i < PARAMETERS; i++) {
+        struct oracle *other = create_with(i, i == MODE ? 2 : paper[i] * (1 + 1e-5));
+        now.other = other;
+        CU_ASSERT_TRUE(caught(o));
+        the_kind()->destroy(other);
+    }
+    the_kind()->destroy(o);
+}
+
+/* Each passes its own check. */
+static void holds_at_the_ends_of_its_parameters(void)
+{
+    static const double value[][PARAMETERS] = {
+        {0.08, 0.02, 1, 1, 2e6, 0.49, 1000},    {0.08, 0.02, 4, 1, 2e6, 0.49, 1000},
+        {1, 0.02, 1, 1, 2e6, 0.49, 1000},       {0.2, 0.02, 1, 0, 2e6, -0.9, 1000},
+        {2e5, 5e4, 1, 1e-30, 1e40, 0.3, 1e-10}, {2e-7, 5e-8, 1, -1e10, 1e-9, 0, 1e9}};
+    for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
+        struct oracle *oracle = NULL;
+        struct oracle_check line[ORACLE_LAWS];
+        char why[ORACLE_WHY] = "";
+        size_t count = 0;
+        CU_ASSERT_TRUE_FATAL(oracle_create(the_kind(), value[i], &oracle, why));
+        CU_ASSERT_TRUE(oracle_self_check(the_kind(), oracle, line, &count));
+        for (size_t j = 0; j < count; j++) {
+            if (!oracle_law_holds(&line[j])) {
+                printf("set %zu, %s: %.3g > %.3g\n", i, line[j].law, line[j].residual, line[j].bound);
+            }
+        }
+        the_kind()->destroy(oracle);
+    }
+}
+
+static void refuses_what_it_cannot_answer(void)
+{
+    static const struct {
+        int parameter;
+        double value;
+        const char *says;
+    } wrong[] = {{LENGTH, 0.07, "4 to 50 times; L = 0.2 would do"},
+                 {LENGTH, 1.1, "55 times"},
+                 {HEIGHT, 1e-300, "4 to 50 times"},
+                 {MODE, 1.5, "a whole number"},
+                 {MODE, 5, "<= 4"},
+                 {POISSON, 0.5, "<= 0.49"},
+                 {TIP, 1e200, "range of double precision"},
+                 {YOUNG, 1e307, "range of double precision"}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        double values[PARAMETERS];
+        char why[ORACLE_WHY] = "";
+        struct oracle *oracle = (struct oracle *)1;
+        memcpy(values, paper, sizeof values);
+        values[wrong[i].parameter] = wrong[i].value;
+        CU_ASSERT_FALSE_FATAL(oracle_create(the_kind(), values, &oracle, why));
+        CU_ASSERT_PTR_NULL(oracle);
+        CU_ASSERT_PTR_NOT_NULL(strstr(why, wrong[i].says));
+    }
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"agrees with finite elements", agrees_with_finite_elements},
+        {"meets Timoshenko without Poisson's effect", meets_timoshenko_without_poisson_effect},
+        {"converges as the corner singularity says", converges_as_the_corner_singularity_says},
+        {"is as certain as it says", is_as_certain_as_it_says},
+        {"holds in plane stress", holds_in_plane_stress},
+        {"modes are what their numbers say", modes_are_what_their_numbers_say},
+        {"another problem is caught", another_problem_is_caught},
+        {"holds at the ends of its parameters", holds_at_the_ends_of_its_parameters},
+        {"refuses what it cannot answer", refuses_what_it_cannot_answer},
+    };
+    return unit_main("oracles: cantilever", tests, sizeof tests / sizeof *tests);
+}
