@@ -36,6 +36,7 @@ bool solver_faces_create(const struct solver_scene *scene, const struct solver_s
     }
     for (size_t a = 0; a < cloud->count; a++) {
         unsigned axes = 0;
+        unsigned lasting = 0;
         int motion = -1;
         bool clamped = false;
         for (unsigned face = 0; face < 2 * dim; face++) {
@@ -43,6 +44,7 @@ bool solver_faces_create(const struct solver_scene *scene, const struct solver_s
                 continue;
             }
             axes |= constrained_axes(scene->face[face], face / 2, dim);
+            lasting |= scene->face[face] == SOLVER_MOTION ? 0 : constrained_axes(scene->face[face], face / 2, dim);
             clamped = clamped || scene->face[face] == SOLVER_CLAMPED;
             motion = scene->face[face] == SOLVER_MOTION && motion < 0 ? (int)face : motion;
         }
@@ -52,8 +54,10 @@ bool solver_faces_create(const struct solver_scene *scene, const struct solver_s
         struct solver_constraint *constraint = &faces->constraint[faces->constraint_count++];
         constraint->particle = (uint32_t)a;
         constraint->motion = clamped ? -1 : motion; /* where a clamped face meets a moving one, it holds */
+        constraint->until = constraint->motion >= 0 ? scene->face_until[constraint->motion] : INFINITY;
         for (unsigned axis = 0; axis < dim; axis++) {
             constraint->keep[axis * dim + axis] = (axes >> axis & 1U) != 0 ? 0.0 : 1.0;
+            constraint->after[axis * dim + axis] = (lasting >> axis & 1U) != 0 ? 0.0 : 1.0;
         }
     }
     for (size_t i = 0; i < stencil->face_point_count; i++) {
@@ -88,7 +92,8 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
         double *at = v + constraint->particle * lanes;
         double free_part[3] = {0};
         double velocity[3] = {0};
-        if (constraint->motion >= 0) {
+        const double *keep = t <= constraint->until ? constraint->keep : constraint->after;
+        if (constraint->motion >= 0 && t <= constraint->until) {
             double X[3];
             place(cloud, constraint->particle, X);
             if (!solver_scene_eval(scene, (enum solver_formula)(SOLVER_FACE_X0 + constraint->motion), X, t, velocity,
@@ -98,7 +103,7 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
         }
         for (size_t i = 0; i < dim; i++) {
             for (size_t j = 0; j < dim; j++) {
-                free_part[i] += constraint->keep[i * dim + j] * at[j];
+                free_part[i] += keep[i * dim + j] * at[j];
             }
         }
         for (size_t i = 0; i < dim; i++) {

@@ -10,8 +10,10 @@
  * constraints of all of them. */
 struct solver_constraint {
     uint32_t particle;
-    int motion;     /* face whose velocity formula it follows, or -1 */
-    double keep[9]; /* [dim][dim] projection onto the directions left free */
+    int motion;      /* face whose velocity formula it follows, or -1 */
+    double keep[9];  /* [dim][dim] projection onto the directions left free */
+    double until;    /* [s] the motion ends; what other faces hold stays held */
+    double after[9]; /* [dim][dim] the projection from then on */
 };
 
 struct solver_faces {

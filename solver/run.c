@@ -8,11 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the scene says, else as many threads as there are cores, each with two pieces of work or more: with less, they
- * wait for each other longer than they work. */
-static int choose_threads(int wanted, size_t particles)
+/* What the scene says, else as many threads as there are cores, each with so much work that it outlasts the wait for
+ * the others: a particle's share grows fourfold with each dimension, as its neighbours do. */
+static int choose_threads(int wanted, int dim, size_t particles)
 {
-    size_t worth = particles / (2 * (size_t)SOLVER_PIECE);
+    size_t work_per_thread = (size_t)131072 >> (2 * dim);
+    size_t worth = particles / work_per_thread;
     int cores = omp_get_num_procs();
     if (wanted > 0) {
         return wanted;
@@ -193,7 +194,7 @@ static bool build(struct solver_run *run, struct solver_error *error)
     if (!solver_cloud_box(&box, &run->cloud, error) || !set_constants(run, error)) {
         return false;
     }
-    run->threads = choose_threads(scene->threads, run->cloud->count);
+    run->threads = choose_threads(scene->threads, scene->dim, run->cloud->count);
     omp_set_num_threads(run->threads);
     if (!solver_stencil_create(builder, run->cloud, scene->support, &run->stencil, error) ||
         (least_squares && !solver_stencil_add_least_squares(run->stencil, run->cloud, error)) ||

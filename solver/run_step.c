@@ -244,6 +244,17 @@ bool solver_run_steps(struct solver_run *run, size_t steps, struct solver_error 
     return true;
 }
 
+/* The first time after now at which a moved face is let go, or t_end. */
+static double next_stop(const struct solver_run *run, double t_end)
+{
+    double stop = t_end;
+    for (int face = 0; face < 2 * run->scene->dim; face++) {
+        double until = run->scene->face_until[face];
+        stop = run->scene->face[face] == SOLVER_MOTION && until > run->time && until < stop ? until : stop;
+    }
+    return stop;
+}
+
 bool solver_run_to(struct solver_run *run, double t_end, solver_progress *progress, void *context,
                    struct solver_error *error)
 {
@@ -256,8 +267,9 @@ bool solver_run_to(struct solver_run *run, double t_end, solver_progress *progre
         ok = solver_run_note(run, error);
     }
     while (ok && run->time < t_end) {
-        /* equal steps that end at t_end, rather than a last step of any size */
-        double remaining = t_end - run->time;
+        /* equal steps that end where a face is let go or at t_end, rather than a last step of any size */
+        double stop = next_stop(run, t_end);
+        double remaining = stop - run->time;
         double steps = ceil(remaining / largest_step(run) - 1e-9);
         bool last = steps <= 1.0;
         if (!isfinite(steps) || steps > 1e12) {
@@ -268,8 +280,9 @@ bool solver_run_to(struct solver_run *run, double t_end, solver_progress *progre
         }
         ok = step(run, last ? remaining : remaining / steps, error);
         if (ok && last) {
-            run->time = t_end;
+            run->time = stop;
         }
+        last = last && stop == t_end;
         size_t row = (size_t)((run->time - start) / (t_end - start) * HISTORY_ROWS);
         if (ok && (last || row > noted)) {
             noted = row;

@@ -122,6 +122,7 @@ struct solver_scene {
     int threads;                 /* 0: as many as there are cores and the work is worth */
 
     enum solver_face_kind face[SOLVER_FACES]; /* X0, X1, Y0, Y1, Z0, Z1 */
+    double face_until[SOLVER_FACES];          /* [s] a moved face is free after this time; infinite otherwise */
     struct solver_probe probe[SOLVER_PROBES];
     size_t probe_count;
 

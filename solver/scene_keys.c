@@ -12,7 +12,8 @@
 #define OPTIONAL   ""
 #define ABOVE_ZERO DBL_MIN
 #define FACE_KINDS                                                                                                     \
-    "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f } or { kind = \"motion\", value = f }"
+    "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f } or { kind = \"motion\", value = f, " \
+    "until = t }"
 #define FORMULA "function(X, Y, Z, t) returning dim numbers"
 
 /* clang-format off */

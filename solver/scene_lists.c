@@ -70,6 +70,8 @@ void scene_read_faces(lua_State *L, struct solver_scene *scene)
             continue;
         scene_lua_push(L, key->key);
         int given = lua_gettop(L), face = (int)rule->offset;
+        bool ends = false;
+        scene->face_until[face] = INFINITY;
         if (lua_isnil(L, given)) {
             lua_pop(L, 1);
             continue;
@@ -80,8 +82,14 @@ void scene_read_faces(lua_State *L, struct solver_scene *scene)
         if (lua_istable(L, given)) {
             for (lua_pushnil(L); lua_next(L, given); lua_pop(L, 1)) {
                 const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "1";
-                if (strcmp(name, "kind") != 0 && strcmp(name, "value") != 0)
-                    scene_refuse(L, "%s.%.60s: unknown key; expected kind and value", key->key, name);
+                if (strcmp(name, "kind") != 0 && strcmp(name, "value") != 0 && strcmp(name, "free_after") != 0)
+                    scene_refuse(L, "%s.%.60s: unknown key; expected kind, value and free_after", key->key, name);
+            }
+            ends = lua_getfield(L, given, "free_after") != LUA_TNIL;
+            if (ends) {
+                char path[2 * SOLVER_NAME];
+                snprintf(path, sizeof path, "%s.free_after", key->key);
+                scene->face_until[face] = scene_read_number(L, path, -1, DBL_MIN, DBL_MAX, "number > 0 [s]");
             }
             has_value = lua_getfield(L, given, "value") != LUA_TNIL;
             lua_getfield(L, given, "kind");
@@ -97,6 +105,8 @@ void scene_read_faces(lua_State *L, struct solver_scene *scene)
                          lua_tostring(L, -1), scene->dim, scene->dim == 1 ? "" : "s");
         if (has_value && !wants_value)
             scene_refuse(L, "%s: '%s' takes no value", key->key, lua_tostring(L, -1));
+        if (ends && kind != SOLVER_MOTION)
+            scene_refuse(L, "%s: only 'motion' takes free_after, '%s' lasts", key->key, lua_tostring(L, -1));
         scene->face[face] = (enum solver_face_kind)kind;
         if (wants_value) {
             lua_pushvalue(L, -2);

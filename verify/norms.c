@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Field by field, in the order of the four norms. */
-#define NAMES(field) field, field "_abs", field "_max", field "_abs_max"
-#define UNITS(unit)  "-", unit, "-", unit
+/* Field by field, in the order of keep() below. */
+#define NAMES(field) field, field "_abs", field "_max", field "_abs_max", field "_l1"
+#define UNITS(unit)  "-", unit, "-", unit, "-"
 #define MEANINGS(field)                                                                                                \
     "relative L2 error of the " field, "absolute L2 error of the " field, "relative max error of the " field,          \
-        "absolute max error of the " field
+        "absolute max error of the " field, "relative L1 error of the " field
 
 static const char *const name_table[VERIFY_ERRORS] = {NAMES("p"), NAMES("P"), NAMES("P_all"),
                                                       NAMES("u"), NAMES("F"), NAMES("probes")};
@@ -33,7 +33,7 @@ static double larger(double a, double b)
 struct verify_norms verify_norms_field(size_t count, size_t width, const double *V, const double *computed,
                                        const double *exact)
 {
-    double volume = 0, error_sum = 0, exact_sum = 0, error_max = 0, exact_max = 0;
+    double volume = 0, error_sum = 0, exact_sum = 0, error_max = 0, exact_max = 0, error_l1 = 0, exact_l1 = 0;
     for (size_t a = 0; a < count; a++) {
         double error = 0, size = 0;
         for (size_t i = a * width; i < (a + 1) * width; i++) {
@@ -44,6 +44,8 @@ struct verify_norms verify_norms_field(size_t count, size_t width, const double 
         volume += V[a];
         error_sum += V[a] * error;
         exact_sum += V[a] * size;
+        error_l1 += V[a] * sqrt(error);
+        exact_l1 += V[a] * sqrt(size);
         error_max = larger(error_max, error);
         exact_max = larger(exact_max, size);
     }
@@ -52,6 +54,7 @@ struct verify_norms verify_norms_field(size_t count, size_t width, const double 
         .absolute_l2 = sqrt(error_sum / volume),
         .relative_max = exact_max > 0 ? sqrt(error_max / exact_max) : NAN,
         .absolute_max = sqrt(error_max),
+        .relative_l1 = exact_l1 > 0 ? error_l1 / exact_l1 : NAN,
     };
 }
 
@@ -119,10 +122,12 @@ static struct verify_norms measure(enum verify_field field, const struct solver_
 
 static void keep(double error[VERIFY_ERRORS], enum verify_field field, struct verify_norms norms)
 {
-    error[4 * field] = norms.relative_l2;
-    error[4 * field + 1] = norms.absolute_l2;
-    error[4 * field + 2] = norms.relative_max;
-    error[4 * field + 3] = norms.absolute_max;
+    double *out = error + (size_t)VERIFY_NORMS * (size_t)field;
+    out[0] = norms.relative_l2;
+    out[1] = norms.absolute_l2;
+    out[2] = norms.relative_max;
+    out[3] = norms.absolute_max;
+    out[4] = norms.relative_l1;
 }
 
 /* Rows of the history times probes, each a point in time and place. */
@@ -131,7 +136,7 @@ static bool measure_probes(const struct solver_history *history, const struct or
 {
     size_t count = history->count * history->probe_count;
     if (count == 0) {
-        keep(error, VERIFY_PROBES, (struct verify_norms){NAN, NAN, NAN, NAN});
+        keep(error, VERIFY_PROBES, (struct verify_norms){NAN, NAN, NAN, NAN, NAN});
         return true;
     }
     double *exact = calloc(count, 4 * sizeof *exact);

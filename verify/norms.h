@@ -4,6 +4,7 @@
  * volumes (the quadrature weights of the discrete method) and sums over all particles:
  *
  *   relative L2   sqrt(sum V |e|^2 / sum V |exact|^2)      [-]
+ *   relative L1   sum V |e| / sum V |exact|                [-]
  *   absolute L2   sqrt(sum V |e|^2 / sum V)                [unit of the field]
  *   relative max  max |e| / max |exact|                    [-]
  *   absolute max  max |e|                                  [unit of the field]
@@ -19,7 +20,7 @@
 #include <stddef.h>
 
 struct verify_norms {
-    double relative_l2, absolute_l2, relative_max, absolute_max;
+    double relative_l2, absolute_l2, relative_max, absolute_max, relative_l1;
 };
 
 /* Norms of a field: `count` rows of `width` components, V one weight per row. */
@@ -39,8 +40,8 @@ enum verify_field {
 };
 
 /* Errors have names: "p", "P", "P_all", "u", "F", "probes" are relative L2 norms; with "_abs" absolute L2, with "_max"
- * relative max, with "_abs_max" absolute max. */
-enum { VERIFY_ERRORS = 4 * VERIFY_FIELDS };
+ * relative max, with "_abs_max" absolute max, with "_l1" relative L1. */
+enum { VERIFY_NORMS = 5, VERIFY_ERRORS = VERIFY_NORMS * VERIFY_FIELDS };
 
 const char *verify_error_name(size_t error);
 /* "-" for relative norms, the field's unit for absolute ones. */

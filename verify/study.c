@@ -107,7 +107,7 @@ size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS
                 (void)solver_fail(
                     error, SOLVER_BAD_INPUT,
                     "%s: published: there is no error called \"%s\"; there are p, P, P_all, u, F, probes, each "
-                    "also with _abs, _max or _abs_max",
+                    "also with _abs, _max, _abs_max or _l1",
                     scene->path, name);
                 return 0;
             }

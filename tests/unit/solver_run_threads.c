@@ -138,12 +138,13 @@ static void test_comparison_sees(void)
     free(changed.value);
 }
 
-/* What a scene asks for it gets; left to itself, a run takes a thread for each 512 particles, at most one per core. */
+/* What a scene asks for it gets; left to itself, a run on a line takes a thread for each 32768
+ * particles, at most one per core. */
 static void test_number(void)
 {
     static const struct {
         int n, asked, worth;
-    } lines[] = {{500, 0, 1}, {500, 3, 3}, {1100, 0, 2}, {100000, 0, 195}};
+    } lines[] = {{500, 0, 1}, {500, 3, 3}, {40000, 0, 1}, {70000, 0, 2}, {400000, 0, 12}};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         struct sample sample = start("", "dim=1 n=%d threads=%d", lines[i].n, lines[i].asked);
         int cores = omp_get_num_procs();

@@ -1,0 +1,131 @@
+/* Composite bodies and faces that are let go. */
+#include "tests/unit/runs.h"
+
+/* One material said in two ways; and two materials that meet at X = 0.5. */
+static const char uniform[] = "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2,\n"
+                              "    at = function(X, Y, Z) return 3, 0.3, 2 end }\n";
+static const char halves[] = "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2,\n"
+                             "    at = function(X) if X < 0.5 then return 3, 0.3, 2 end return 40, 0.1, 7 end }\n";
+
+static void join(char out[2048], const char *first, const char *second)
+{
+    CU_ASSERT_FATAL(snprintf(out, 2048, "%s%s", first, second) < 2048);
+}
+
+static double largest_difference(size_t count, const double *one, const double *other)
+{
+    double difference = 0.0;
+    double size = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        difference = fmax(difference, fabs(one[i] - other[i]));
+        size = fmax(size, fabs(one[i]));
+    }
+    return difference / size;
+}
+
+/* The loops of composite bodies do what those of plain ones do. */
+static void test_uniform(void)
+{
+    static const char *const rows[] = {
+        "dim=1 n=16 evolved=pFHJ",
+        "dim=2 n=8 evolved=pFJ volume_flux=stress",
+        "dim=3 n=4 evolved=pF reconstruction=least-squares",
+        "dim=3 n=4 evolved=pFHJ",
+        "dim=2 n=8 stencil=sph support=2.1 evolved=pFJ",
+        "dim=2 n=8 reconstruction=none evolved=pFHJ",
+    };
+    char text[2048];
+    join(text, uniform, smooth_motion);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct sample plain = start(smooth_motion, "%s", rows[i]);
+        struct sample composite = start(text, "%s", rows[i]);
+        advance(&plain, 50);
+        advance(&composite, 50);
+        struct solver_output a = output_of(&plain);
+        struct solver_output b = output_of(&composite);
+        size_t numbers = a.cloud->count * (size_t)a.cloud->dim;
+        CU_ASSERT(largest_difference(numbers, a.p, b.p) < 1e-13);
+        CU_ASSERT(largest_difference(numbers, a.P, b.P) < 1e-11);
+        CU_ASSERT(largest_difference(a.cloud->count, a.J, b.J) < 1e-13);
+        CU_ASSERT(solver_run_facts(plain.run).bytes_per_particle < solver_run_facts(composite.run).bytes_per_particle);
+        finish(&plain);
+        finish(&composite);
+    }
+}
+
+static void test_momentum(void)
+{
+    char text[2048];
+    join(text, halves, smooth_motion);
+    for (int dim = 1; dim <= 3; dim++) {
+        struct sample sample = start(text, "dim=%d n=%d evolved=pFHJ", dim, dim == 1 ? 16 : 5);
+        CU_ASSERT_FATAL(solver_run_to(sample.run, 0.5, NULL, NULL, &sample.error));
+        const struct solver_history *history = solver_run_history(sample.run);
+        const struct solver_totals *first = &history->totals[0];
+        const struct solver_totals *last = &history->totals[history->count - 1];
+        for (int i = 0; i < dim; i++) {
+            CU_ASSERT_DOUBLE_EQUAL(last->linear[i], first->linear[i], 1e-13 * fabs(first->linear[0]));
+        }
+        CU_ASSERT(last->kinetic + last->strain <= first->kinetic + first->strain);
+        CU_ASSERT(last->strain > first->strain);
+        finish(&sample);
+    }
+}
+
+static void test_refused(void)
+{
+    static const char *const bad[] = {"0, 0.3, 2", "3, 0.5, 2", "3, -1, 2", "3, 0.3, 0", "3, 0.3, -2"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char text[512];
+        (void)snprintf(text, sizeof text,
+                       "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2,\n"
+                       "    at = function(X) if X > 0.9 then return %s end return 3, 0.3, 2 end }\n",
+                       bad[i]);
+        struct solver_error error = refusal(text, "dim=2");
+        CU_ASSERT_EQUAL(error.code, SOLVER_BAD_INPUT);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "material.at at X = (1, "));
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "expected E > 0 Pa, nu in (-1, 0.5), rho > 0 kg/m^3"));
+    }
+}
+
+/* A face that is moved at a constant rate until 0.3 and then let go: it keeps its velocity to the last, a step ends at
+ * 0.3 exactly, and what other faces hold stays held. */
+static void test_let_go(void)
+{
+    static const char text[] = "faces = { X0 = { kind = 'motion', value = function() return first(0.01, 0, 0) end,\n"
+                               "    free_after = 0.3 }, Y0 = d > 1 and 'symmetric' or nil }\n";
+    for (int dim = 1; dim <= 2; dim++) {
+        struct sample sample = start(text, "dim=%d n=8 evolved=pF", dim);
+        advance_to(&sample, 0.31);
+        const struct solver_history *history = solver_run_history(sample.run);
+        struct solver_output output = output_of(&sample);
+        size_t hits = 0;
+        for (size_t i = 0; i < history->count; i++) {
+            hits += history->totals[i].time == 0.3;
+        }
+        CU_ASSERT_EQUAL(hits, 1);
+        for (size_t a = 0; a < output.cloud->count; a++) {
+            bool moved = (output.cloud->tags[a] & 1U) != 0;
+            bool rolls = dim > 1 && (output.cloud->tags[a] & 4U) != 0;
+            if (moved) {
+                CU_ASSERT(output.v[a * (size_t)dim] != 0.01);
+                CU_ASSERT(output.u[a * (size_t)dim] > 0.00299);
+            }
+            if (rolls) {
+                CU_ASSERT_EQUAL(output.u[a * (size_t)dim + 1], 0.0);
+            }
+        }
+        finish(&sample);
+    }
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"one material said in two ways", test_uniform},
+        {"momentum of a composite body", test_momentum},
+        {"constants that cannot be", test_refused},
+        {"a face that is let go", test_let_go},
+    };
+    return unit_main("run_composite", tests, sizeof tests / sizeof *tests);
+}
