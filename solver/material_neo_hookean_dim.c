@@ -71,12 +71,14 @@ static void stress_polyconvex(const struct solver_material_constants *material, 
     to_rows(stress_of(material, from_rows(F), from_rows(H), J, true), P);
 }
 
-/* F = 1 out of the plane, where the cofactor is the Jacobian. */
+/* F = 1 out of the plane, where the cofactor is det F, whatever an evolved J has become. */
 static inline double normal_of(const struct solver_material_constants *material, const double *F, double isochoric,
                                double J)
 {
+    struct tensor at = from_rows(F);
+    double H = determinant(at);
     double shear = material->mu / cbrt(isochoric * isochoric);
-    return shear * (1.0 - invariant(from_rows(F)) / 3.0) + material->kappa * (J - 1.0) * J;
+    return shear * (1.0 - invariant(at) * H / (3.0 * isochoric)) + material->kappa * (J - 1.0) * H;
 }
 
 static double stress_normal(const struct solver_material_constants *material, const double *F, double J)

@@ -192,9 +192,9 @@ static void embedded(const struct sample *sample)
         double A_3d[81];
         random_deformation(dim, F);
         measures(sample, F, H, &J);
-        J *= uniform(0.9, 1.1); /* an evolved Jacobian goes its own way */
         embed(dim, F, 1.0, F_3d);
-        embed(dim, H, J, H_3d); /* H_zz = J: the area normal to the plane lies in it */
+        embed(dim, H, J, H_3d); /* H_zz = det F: the area normal to the plane lies in it */
+        J *= uniform(0.9, 1.1); /* an evolved Jacobian goes its own way, the cofactor does not follow it */
         sample->material->stress(constants, F, H, J, P);
         sample->in_3d->stress(constants, F_3d, H_3d, J, P_3d);
         double W = sample->in_3d->energy(constants, F_3d, H_3d, J);
