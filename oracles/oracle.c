@@ -9,6 +9,7 @@
     ENTRY(oracle_bimaterial_wave)                                                                                      \
     ENTRY(oracle_cable)                                                                                                \
     ENTRY(oracle_cantilever)                                                                                           \
+    ENTRY(oracle_rod_impact)                                                                                           \
     ENTRY(oracle_swinging_cube)
 
 #define DECLARE(kind) extern const struct oracle_kind kind;

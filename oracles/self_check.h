@@ -38,10 +38,12 @@ struct self_check {
     double bulk, mu, rho;                 /* [Pa], [Pa], [kg/m^3] */
     const struct self_check_body *behind; /* a second body further along X, in one dimension; NULL if there is none */
     struct self_check_scale least; /* sizes the fields are known to have where samples may miss them; else zero */
-    double t_free;                 /* nothing feeds or drains the body from here on [s] */
-    struct oracle_check *line;     /* [size] lines to fill */
-    size_t size, count;            /* room for lines, and lines there are */
-    struct self_check_scale of;    /* set by self_check_differentials */
+    double t_first;                /* samples of a kind with fronts begin here [s] */
+    double drift;  /* velocity of the body as a whole over that of the waves in it: that much less precise is a wave */
+    double t_free; /* nothing feeds or drains the body from here on [s] */
+    struct oracle_check *line;  /* [size] lines to fill */
+    size_t size, count;         /* room for lines, and lines there are */
+    struct self_check_scale of; /* set by self_check_differentials */
 };
 
 /* v = du/dt, p = rho v, F = I + du/dX, P = K tr(e) I + 2 mu dev(e) with e the symmetric du/dX, dp/dt = Div P. Together

@@ -164,7 +164,7 @@ void self_check_fronts(struct self_check *check)
         length += body.upper[0] - body.lower[0];
     }
     for (size_t i = 0; i < TIMES; i++) {
-        double t = check->t_end * self_check_sequence(i, 3);
+        double t = self_check_time(check, i);
         breaks_at_time(check, t, &worst);
         for (int which = 0; which < self_check_bodies(check); which++) {
             struct self_check_body body = self_check_body(check, which);

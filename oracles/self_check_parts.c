@@ -42,7 +42,7 @@ void self_check_line(struct self_check *check, const char *law, double residual,
 
 double self_check_round_off(const struct self_check *check)
 {
-    return DBL_EPSILON * (1 + check->frequency * check->t_end);
+    return DBL_EPSILON * (1 + check->frequency * check->t_end) * (1 + check->drift);
 }
 
 double self_check_gradient_scale(const struct self_check *check, double bound)
@@ -120,6 +120,11 @@ static double within(double lower, double upper, double margin, double part)
     return lower + margin + part * (upper - lower - 2 * margin);
 }
 
+double self_check_time(const struct self_check *check, size_t i)
+{
+    return check->t_first + (check->t_end - check->t_first) * self_check_sequence(i, 3);
+}
+
 /* Among fronts the best of some candidates, with steps that fit in; at t, or at any time if it is NaN. */
 static struct self_check_spot sample_between_fronts(const struct self_check *check, size_t i, double t)
 {
@@ -127,7 +132,7 @@ static struct self_check_spot sample_between_fronts(const struct self_check *che
     for (size_t n = i * CANDIDATES; n < (i + 1) * CANDIDATES; n++) {
         struct self_check_spot spot = {.body = self_check_body(check, (int)(i % (size_t)self_check_bodies(check)))};
         spot.X[0] = within(spot.body.lower[0], spot.body.upper[0], 0, self_check_sequence(n, 0));
-        spot.t = isnan(t) ? check->t_end * self_check_sequence(n, 3) : t;
+        spot.t = isnan(t) ? self_check_time(check, n) : t;
         double room = clearance(check, &spot);
         if (isnan(t)) {
             room = fmin(room, self_check_speed(&spot.body) * spot.t);

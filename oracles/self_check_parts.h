@@ -48,6 +48,8 @@ struct self_check_spot {
 };
 /* Point i, at least `steps` steps of the differences from the ends of body and time. */
 struct self_check_spot self_check_sample(const struct self_check *check, size_t i, int steps);
+/* Time i of a sequence from the first to the last that are looked at. */
+double self_check_time(const struct self_check *check, size_t i);
 /* Point i of the body at a time that is given. */
 struct self_check_spot self_check_sample_at(const struct self_check *check, size_t i, double t);
 
