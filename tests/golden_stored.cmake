@@ -1,7 +1,9 @@
-# The stored record and picture of the scene, and what must not pass beside them. After a change that is meant to alter
-# results: assay golden update swinging-cube, look at golden/swinging-cube.png, commit both files.
-assay_test(golden-stored LABELS golden image COMMAND $<TARGET_FILE:assay> golden check swinging-cube
-  --out golden-stored)
+# The stored record and picture of every scene, and what must not pass beside them. After a change that is meant to alter
+# results: assay golden update SCENE, look at golden/SCENE.png, commit both files.
+foreach(scene swinging-cube elastic-cable bimaterial-wave)
+  assay_test(golden-stored-${scene} LABELS golden image COMMAND $<TARGET_FILE:assay> golden check ${scene}
+    --out golden-stored/${scene})
+endforeach()
 
 add_executable(golden_spoil ${CMAKE_CURRENT_SOURCE_DIR}/golden_spoil.c)
 target_link_libraries(golden_spoil PRIVATE assay_solver assay_render)

@@ -42,6 +42,6 @@ gates = {
 }
 
 view = {
-    field = "velocity_x", range = {-5.5, 5.5}, bands = 11, -- m/s
+    field = "P_xx", range = {-2.2e8, 2.2e8}, bands = 11, -- Pa
     direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 100, size = {1200, 400},
 }
