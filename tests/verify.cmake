@@ -84,6 +84,11 @@ assay_test(run-and-render LABELS image COMMAND sh -c
   "$<TARGET_FILE:assay> run swinging-cube --set n=8 --out test-out/render &&
    $<TARGET_FILE:assay> render test-out/render/swinging-cube.vtkhdf -o test-out/render/again.png &&
    cmp test-out/render/swinging-cube.png test-out/render/again.png")
+# A record is not overwritten by its own picture.
+assay_test(render-over-record LABELS mustfail COMMAND sh -c
+  "$<TARGET_FILE:assay> run swinging-cube --set n=8 --out test-out/render-over &&
+   sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 2 'is the record itself' $<TARGET_FILE:assay> render test-out/render-over/swinging-cube.vtkhdf -o test-out/render-over/../render-over/swinging-cube.vtkhdf &&
+   $<TARGET_FILE:assay> render test-out/render-over/swinging-cube.vtkhdf")
 assay_test(render-another-field LABELS image COMMAND sh -c
   "$<TARGET_FILE:assay> run swinging-cube --set n=8 --out test-out/field &&
    $<TARGET_FILE:assay> render test-out/field/swinging-cube.vtkhdf -o test-out/field/u.png --set view.field=displacement_x &&

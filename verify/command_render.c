@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* Splits "KEY=value\n" lines in place; the command line's overrides follow, and so win. */
@@ -53,7 +54,16 @@ static bool picture_path(const struct verify_options *options, char path[VERIFY_
         dot != NULL && dot > record && (slash == NULL || dot > slash + 1) ? (size_t)(dot - record) : strlen(record);
     int length = options->picture != NULL ? snprintf(path, VERIFY_PATH, "%s", options->picture)
                                           : snprintf(path, VERIFY_PATH, "%.*s.png", (int)stem, record);
-    return length < VERIFY_PATH || solver_fail(error, SOLVER_BAD_INPUT, "--output: the path is too long");
+    if (length >= VERIFY_PATH) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "--output: the path is too long");
+    }
+    struct stat of_record, of_picture;
+    if (stat(record, &of_record) == 0 && stat(path, &of_picture) == 0 && of_record.st_dev == of_picture.st_dev &&
+        of_record.st_ino == of_picture.st_ino) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "%s: is the record itself; choose another -o for its picture",
+                           path);
+    }
+    return true;
 }
 
 static bool render(const struct solver_record *record, const struct verify_options *options, struct solver_error *error)
