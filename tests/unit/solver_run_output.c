@@ -73,6 +73,26 @@ static void test_measures(void)
     }
 }
 
+/* Without a formula for it, F is what the stencil makes of the displacement: of a linear one, its gradient. */
+static void test_discrete_F(void)
+{
+    for (size_t dim = 1; dim <= 3; dim++) {
+        struct sample sample =
+            start("initial = { displacement = function(X, Y, Z)\n"
+                  "    return first(0.2 * X - 0.1 * Y + 0.3 * Z, 0.05 * X + 0.1 * Z, 0.15 * Y) end }\n",
+                  "dim=%zu stencil=%s", dim, dim == 2 ? "closed" : "sbp2");
+        static const double gradient[3][3] = {{0.2, -0.1, 0.3}, {0.05, 0.0, 0.1}, {0.0, 0.15, 0.0}};
+        struct solver_output output = output_of(&sample);
+        for (size_t a = 0; a < output.cloud->count; a++) {
+            for (size_t k = 0; k < dim * dim; k++) {
+                double expected = gradient[k / dim][k % dim] + (k / dim == k % dim ? 1.0 : 0.0);
+                CU_ASSERT_DOUBLE_EQUAL(output.F[a * dim * dim + k], expected, 1e-13);
+            }
+        }
+        finish(&sample);
+    }
+}
+
 /* A block that has been moved by (3, -1, 2) m and flies: sums are those of its centre of mass. */
 static void test_momenta(void)
 {
@@ -196,6 +216,7 @@ int main(void)
 {
     static const struct unit_test tests[] = {
         {"stress, Jacobian and cofactor of a known deformation", test_measures},
+        {"F of a displacement", test_discrete_F},
         {"momenta of a body that flies", test_momenta},
         {"plane strain is a body between rollers", test_plane_strain},
         {"the evolved cofactor stays with that of F", test_evolved_H},

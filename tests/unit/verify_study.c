@@ -55,6 +55,11 @@ static void levels_added(void)
     verify_study_add(&study, &level);
     CU_ASSERT_EQUAL(study.level_count, 2);
     CU_ASSERT_DOUBLE_EQUAL(study.level[1].rate[0], 2, 1e-12);
+    level.n = 24; /* the order is that from the level before, not from the first */
+    level.facts.spacing = 0.125 / 3;
+    level.error[0] = 1e-2 / 27;
+    verify_study_add(&study, &level);
+    CU_ASSERT_DOUBLE_EQUAL(study.level[2].rate[0], 3, 1e-12);
 }
 
 static void published_rows(void)
