@@ -55,6 +55,12 @@ static const struct oracle_parameter parameters[] = {
     {0},
 };
 
+/* Events as near as this are one. */
+static double tie_at(const struct oracle *o, double t)
+{
+    return 64 * DBL_EPSILON * (t + 2 * o->rod[0].T + 2 * o->rod[1].T);
+}
+
 /* Last piece that has begun at t >= 0. */
 static size_t piece_at(const struct oracle *o, double t)
 {
@@ -137,7 +143,7 @@ static size_t fronts(const struct oracle *o, double t, struct oracle_front front
         for (int rod = 0; rod < 2; rod++) {
             double period = 2 * o->rod[rod].T, left = o->piece[k].t;
             double before = k == 0 ? 1 - rod : o->piece[k - 1].out[rod];
-            if (t > o->end && left > o->end - period) {
+            if (t > o->end && left > o->end - period + tie_at(o, o->end)) {
                 left += period * fmax(0, floor((t - left) / period)); /* the last time it left again */
             }
             count = add_change(o, rod, t - left, o->piece[k].out[rod] - before, fabs(t), front, count);
@@ -273,7 +279,7 @@ static bool follow(struct oracle *o, char why[ORACLE_WHY])
 {
     struct now now = {.in = {1, 0}};
     for (size_t events = 0; events < 4 * (size_t)ROD_IMPACT_CHANGES && record(o, &now); events++) {
-        double tie = 64 * DBL_EPSILON * (now.t + 2 * o->rod[0].T + 2 * o->rod[1].T);
+        double tie = tie_at(o, now.t);
         if (events > 0 && parted(o, &now, tie)) {
             return true;
         }

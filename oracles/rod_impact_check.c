@@ -62,7 +62,7 @@ static double read_history(const struct self_check *check, struct history *histo
 {
     double uneven = 0;
     history->count = rod_impact_changes(check->oracle, history->time);
-    for (size_t i = 0; i < history->count; i++) {
+    for (size_t i = 0; i < history->count && history->time[i] < check->t_end; i++) {
         double from = history->time[i], to = i + 1 < history->count ? history->time[i + 1] : check->t_end;
         for (int sample = 0; sample < 3; sample++) {
             struct oracle_state face[2];
@@ -172,8 +172,9 @@ size_t rod_impact_check(const struct oracle_kind *kind, const struct oracle *ora
                               .rho = g->rho1,
                               .behind = &right,
                               .frequency = 1 / fmin(T1, T2),
-                              .t_first = fmax(0, contact - fmin(T1, T2)),
-                              .t_end = contact + 6 * fmax(T1, T2),
+                              /* nowhere in step with the waves, so that samples do not fall on arrivals */
+                              .t_first = fmax(0, contact - 0.371 * fmin(T1, T2)),
+                              .t_end = contact + 6.283 * fmax(T1, T2),
                               .drift = v * fmax(Z1, Z2) / stress,
                               .line = line,
                               .size = size};
