@@ -170,6 +170,13 @@ static double largest_step(const struct solver_run *run)
     return run->scene->cfl * run->cloud->spacing / fastest;
 }
 
+/* The state at the start of the step again: after a stage that failed, or a step that broke a particle. */
+static void take_back(struct solver_run *run)
+{
+    memcpy(run->state.U, run->state.start, run->state.evolved * sizeof(double));
+    solver_run_stresses(run);
+}
+
 static bool step(struct solver_run *run, double dt, struct solver_error *error)
 {
     const struct solver_integrator *integrator = run->integrator;
@@ -178,8 +185,11 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
         const struct solver_stage *stage = &integrator->stage[s];
         double next = s + 1 < integrator->stages ? integrator->stage[s + 1].time : 1.0;
         double power;
-        if (!evaluate(run, run->time + stage->time * dt, &power, error) ||
-            !update(run, stage, run->time + next * dt, dt, error)) {
+        bool known = evaluate(run, run->time + stage->time * dt, &power, error);
+        if (!known || !update(run, stage, run->time + next * dt, dt, error)) {
+            if (known || s > 0) { /* else there is nothing to take back, and no start of this step yet */
+                take_back(run);
+            }
             return false;
         }
         work += stage->weight * dt * power;
@@ -190,8 +200,7 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
     if (solver_run_check(run, error)) {
         return true;
     }
-    memcpy(run->state.U, run->state.start, run->state.evolved * sizeof(double));
-    solver_run_stresses(run);
+    take_back(run);
     run->time -= dt;
     run->external -= work;
     run->step--;

@@ -149,6 +149,37 @@ static void test_formula_fails(void)
     finish(&sample);
 }
 
+/* Whichever stage a formula fails in, the output is the state after the last whole step. */
+static void test_formula_fails_within_a_step(void)
+{
+    static const char *const late[] = {"return first(t > %s and 0 / 0 or 0.3, 0, 0)", "return first(0.3, 0, 0)"};
+    static const char *const kinds[] = {"body_force = function(X, Y, Z, t) %s end\n",
+                                        "faces = { X0 = { kind = 'traction', value = function(X, Y, Z, t) %s end } }\n",
+                                        "faces = { X0 = { kind = 'motion', value = function(X, Y, Z, t) %s end } }\n"};
+    static const char *const times[] = {"0.2", "0.225", "0.25", "0.275"};
+    for (size_t i = 0; i < 12; i++) {
+        char value[128], bad[256], good[256];
+        (void)snprintf(value, sizeof value, late[0], times[i % 4]);
+        (void)snprintf(bad, sizeof bad, kinds[i / 4], value);
+        (void)snprintf(good, sizeof good, kinds[i / 4], late[1]);
+        struct sample broken = start(bad, "dim=2 integrator=rk4"), whole = start(good, "dim=2 integrator=rk4");
+        CU_ASSERT_FALSE(solver_run_steps(broken.run, 100, &broken.error));
+        CU_ASSERT_EQUAL(broken.error.code, SOLVER_BAD_INPUT);
+        struct solver_output output = output_of(&broken);
+        CU_ASSERT(output.step > 0);
+        advance(&whole, output.step);
+        struct solver_output expected = output_of(&whole);
+        size_t bytes = output.cloud->count * sizeof(double);
+        CU_ASSERT_EQUAL(output.time, expected.time);
+        CU_ASSERT_EQUAL(memcmp(output.u, expected.u, 2 * bytes), 0);
+        CU_ASSERT_EQUAL(memcmp(output.v, expected.v, 2 * bytes), 0);
+        CU_ASSERT_EQUAL(memcmp(output.F, expected.F, 4 * bytes), 0);
+        CU_ASSERT_EQUAL(memcmp(output.P, expected.P, 4 * bytes), 0);
+        finish(&broken);
+        finish(&whole);
+    }
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -157,6 +188,7 @@ int main(void)
         {"on the way to t_end", test_run_to},
         {"the broken field is the one named", test_field_is_named},
         {"a formula that fails on the way", test_formula_fails},
+        {"a formula that fails within a step leaves the step before", test_formula_fails_within_a_step},
     };
     return unit_main("breakdown", tests, sizeof tests / sizeof *tests);
 }
