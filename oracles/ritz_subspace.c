@@ -8,7 +8,8 @@
 /* Vectors iterated beside the wanted one: each step shrinks what is foreign to it by the ratio of squared frequencies
  * to the first mode that is left out. */
 enum { GUARD = 3, STEPS = 60 };
-static const double STANDS = 1e-11; /* largest change of a step, relative to the largest entry */
+static const double STANDS =
+    1e-9; /* largest change of a step, relative to the largest entry; the next would be far smaller */
 
 static bool allocate_subspace(const struct ritz_system *s, size_t wanted, struct ritz_subspace *space)
 {

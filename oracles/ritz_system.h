@@ -5,14 +5,14 @@
 #include "oracles/axis.h"
 #include "oracles/skyline.h"
 
-/* Unknowns z: blocks, one per x function; in each u_x of the y functions 1 ..., then u_y of 0 ...: on y = 0, where only
- * function 0 is not zero, u_x is zero by symmetry. */
+/* Unknowns z: a block for each component of each x function, with the coefficients of the y functions in order; of u_x
+ * without function 0, for u_x is zero on y = 0 by symmetry. */
 struct ritz_system {
     double lambda;            /* mu = rho = 1 */
     const struct axis *x, *y; /* not owned */
     struct axis_matrices of_x, of_y;
-    int *block;     /* [x->functions] place in the order of elimination; -1 on the clamp */
-    int block_size; /* unknowns of one x function */
+    int *block;    /* [x->functions][2] first unknown of the block; -1 on the clamp */
+    bool *coupled; /* [x->functions][2][x->functions][2] whether two blocks have entries in A */
     size_t unknowns;
     struct skyline stiffness; /* A, or its factor */
 };
