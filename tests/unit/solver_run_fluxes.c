@@ -84,6 +84,28 @@ static void test_linear_jumps_of_momentum(void)
     }
 }
 
+/* The reconstruction that is asked for is the one that runs: three of them, three results. */
+static void test_reconstructions_differ(void)
+{
+    static const char *const names[] = {"stencil", "least-squares", "none"};
+    double v[3][50];
+    for (size_t i = 0; i < 3; i++) {
+        struct sample sample = start(smooth_motion, "dim=2 n=4 evolved=pFJ stencil=closed reconstruction=%s", names[i]);
+        advance(&sample, 5);
+        struct solver_output output = output_of(&sample);
+        CU_ASSERT_EQUAL_FATAL(output.cloud->count, 25);
+        memcpy(v[i], output.v, 50 * sizeof(double));
+        finish(&sample);
+    }
+    for (size_t i = 0; i < 3; i++) {
+        double most = 0.0;
+        for (size_t k = 0; k < 50; k++) {
+            most = fmax(most, fabs(v[i][k] - v[(i + 1) % 3][k]));
+        }
+        CU_ASSERT(most > 1e-6);
+    }
+}
+
 /* What one particle of a pair gains in V J, the other loses. */
 static void test_flux_of_J_is_antisymmetric(void)
 {
@@ -193,6 +215,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"linear states of stress do not jump", test_linear_jumps_of_stress},
         {"linear states of momentum do not jump", test_linear_jumps_of_momentum},
+        {"the reconstruction asked for is the one that runs", test_reconstructions_differ},
         {"the flux of J is antisymmetric", test_flux_of_J_is_antisymmetric},
         {"the same motion for an observer who has turned", test_objectivity},
         {"a free body never gains energy", test_free_body_loses_energy},
