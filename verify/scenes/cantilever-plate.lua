@@ -1,0 +1,44 @@
+-- A plate, clamped at one end, swings in its first bending mode. The paper compares with thin-plate theory; the exact
+-- solution here is the plane-strain body's own.
+title = "Cantilever plate"
+source = "001_363f711843f01da4.txt, section 4.1; moduli from the original benchmark, which the text omits"
+
+parameters = { L = 0.2, H = 0.02, mode = 1, K = 3.25e6, G = 7.15e5, v_tip = 0.57008771254957 } -- m, m, -, Pa, Pa, m/s
+
+dim = 2
+domain = { lower = {0, -H / 2}, upper = {L, H / 2} } -- m
+reference_length = H
+n = 20
+levels = {10, 20} -- spacings of 2 and 1 mm
+
+material = { model = "linear-elastic", E = 9 * K * G / (3 * K + G), nu = (3 * K - 2 * G) / (6 * K + 2 * G), rho = 1000 }
+t_end = 1 -- s
+
+faces = { X0 = "clamped", X1 = "free", Y0 = "free", Y1 = "free" }
+
+local k = 1.875104068711961 / L
+local cos, sin = math.cos, math.sin
+local function cosh(x) return (math.exp(x) + math.exp(-x)) / 2 end
+local function sinh(x) return (math.exp(x) - math.exp(-x)) / 2 end
+local function shape(x)
+    return (cos(k * L) + cosh(k * L)) * (cosh(k * x) - cos(k * x)) + (sin(k * L) - sinh(k * L)) * (sinh(k * x) - sin(k * x))
+end
+initial = {
+    velocity = function(X) return 0, v_tip * shape(X) / shape(L) end,
+}
+
+scheme, evolved = "upwind", "pF"
+stencil, integrator, cfl = "sbp4", "rk4", 0.8
+
+oracle = { name = "cantilever" }
+probes = { { name = "tip", X = {L, 0} } }
+
+-- Displacement of the tip over 1 s, four periods, at 1 mm, relative to the plane-strain solution.
+gates = {
+    { when = { stencil = "sbp4", integrator = "rk4", cfl = 0.8, t_end = 1 }, probes = 0.012 },
+}
+
+view = {
+    field = "P_xx", range = {-5.5e4, 5.5e4}, bands = 11, -- Pa
+    direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 1, size = {1200, 600},
+}
