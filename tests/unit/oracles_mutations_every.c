@@ -1,0 +1,289 @@
+/* Faults that any oracle could have, put into every one there is, must be caught by the self-check of the true one.
+ * What must at least be seen is a change a thousand times as large as the loosest bound of the check; the suite prints
+ * what is seen. */
+#include "oracles/oracle.h"
+#include "tests/unit/unit.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef void spoil_state(const double X[3], double t, double d, struct oracle_state *s);
+
+/* The true kind, the oracle checked, and what is spoiled by how much. */
+static struct {
+    const struct oracle_kind *kind;
+    struct oracle *whole, *other;
+    spoil_state *state;
+    double d, kinetic, strain; /* energies: relative change */
+} now;
+
+static void true_state(const double X[3], double t, struct oracle_state *s)
+{
+    now.kind->state(now.whole, X, t, s);
+}
+
+static void spoiled_state(const struct oracle *oracle, const double X[3], double t, struct oracle_state *s)
+{
+    (void)oracle;
+    now.state != NULL ? now.state(X, t, now.d, s) : true_state(X, t, s);
+}
+
+static void spoiled_energy(const struct oracle *oracle, double t, double *kinetic, double *strain)
+{
+    now.kind->energy(oracle, t, kinetic, strain);
+    *kinetic *= 1 + now.kinetic;
+    *strain *= 1 + now.strain;
+}
+
+static bool caught(double *loosest)
+{
+    struct oracle_kind spoiled = *now.kind;
+    struct oracle_check line[ORACLE_LAWS];
+    size_t count = 0;
+    spoiled.state = spoiled_state;
+    spoiled.energy = spoiled_energy;
+    bool holds = oracle_self_check(&spoiled, now.whole, line, &count);
+    for (size_t i = 0; loosest != NULL && i < count; i++) {
+        *loosest = fmax(*loosest, line[i].bound);
+    }
+    return !holds;
+}
+
+static void scale(double *x, size_t count, double factor)
+{
+    for (size_t i = 0; i < count; i++) {
+        x[i] *= factor;
+    }
+}
+
+static void scale_gradient(double F[9], double factor)
+{
+    for (int i = 0; i < 9; i++) {
+        double unit = i % 4 == 0 ? 1 : 0;
+        F[i] = unit + (F[i] - unit) * factor;
+    }
+}
+
+static void displacement(const double X[3], double t, double d, struct oracle_state *s)
+{
+    true_state(X, t, s);
+    scale(s->u, 3, 1 + d);
+}
+
+static void velocity(const double X[3], double t, double d, struct oracle_state *s)
+{
+    true_state(X, t, s);
+    scale(s->v, 3, 1 + d);
+    scale(s->p, 3, 1 + d);
+}
+
+static void momentum(const double X[3], double t, double d, struct oracle_state *s)
+{
+    true_state(X, t, s);
+    scale(s->p, 3, 1 + d);
+}
+
+static void gradient(const double X[3], double t, double d, struct oracle_state *s)
+{
+    true_state(X, t, s);
+    scale_gradient(s->F, 1 + d);
+}
+
+static void stress(const double X[3], double t, double d, struct oracle_state *s)
+{
+    true_state(X, t, s);
+    scale(s->P, 9, 1 + d);
+}
+
+static void amplitude(const double X[3], double t, double d, struct oracle_state *s)
+{
+    velocity(X, t, d, s);
+    scale(s->u, 3, 1 + d);
+    scale_gradient(s->F, 1 + d);
+    scale(s->P, 9, 1 + d);
+}
+
+static void place(const double X[3], double t, double d, struct oracle_state *s)
+{
+    const double nearer[3] = {X[0] * (1 - d), X[1], X[2]}; /* still in the body */
+    true_state(nearer, t, s);
+}
+
+static void clock_alone(const double X[3], double t, double d, struct oracle_state *s)
+{
+    true_state(X, t * (1 + d), s);
+}
+
+static void frequency(const double X[3], double t, double d, struct oracle_state *s)
+{
+    clock_alone(X, t, d, s);
+    scale(s->v, 3, 1 + d);
+    scale(s->p, 3, 1 + d);
+}
+
+static const struct {
+    const char *name;
+    spoil_state *state;
+    double kinetic, strain;
+} mutations[] = {
+    {"displacement", displacement, 0, 0},
+    {"velocity", velocity, 0, 0},
+    {"momentum", momentum, 0, 0},
+    {"gradient", gradient, 0, 0},
+    {"stress", stress, 0, 0},
+    {"amplitude", amplitude, 0, 0},
+    {"place", place, 0, 0},
+    {"clock", clock_alone, 0, 0},
+    {"frequency", frequency, 0, 0},
+    {"kinetic energy", NULL, 1, 0},
+    {"strain energy", NULL, 0, 1},
+    {"both energies", NULL, 1, 1},
+};
+
+static void begin(const struct oracle_kind *kind, double value[ORACLE_PARAMETERS])
+{
+    char why[ORACLE_WHY] = "";
+    memset(&now, 0, sizeof now);
+    now.kind = kind;
+    for (size_t i = 0; kind->parameter[i].name != NULL; i++) {
+        value[i] = kind->parameter[i].typical;
+    }
+    CU_ASSERT_TRUE_FATAL(oracle_create(kind, value, &now.whole, why));
+}
+
+static void small_changes_are_caught(void)
+{
+    printf("\n");
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        double value[ORACLE_PARAMETERS], loosest = 0;
+        begin(*k, value);
+        CU_ASSERT_FALSE(caught(&loosest)); /* going through the copy is no fault */
+        for (size_t i = 0; i < sizeof mutations / sizeof *mutations; i++) {
+            double smallest = INFINITY;
+            now.state = mutations[i].state;
+            for (int exponent = -4; exponent >= -14; exponent -= 2) {
+                now.d = pow(10, exponent);
+                now.kinetic = now.d * mutations[i].kinetic;
+                now.strain = now.d * mutations[i].strain;
+                if (!caught(NULL)) {
+                    break;
+                }
+                smallest = now.d;
+            }
+            printf("    %-16s %-16s caught down to %.0e\n", (*k)->name, mutations[i].name, smallest);
+            CU_ASSERT_TRUE(smallest <= 1e3 * loosest);
+        }
+        (*k)->destroy(now.whole);
+    }
+}
+
+static void other_oracle(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d;
+    now.kind->state(now.other, X, t, s);
+}
+
+/* Every parameter off in the fields alone: a solution without a flaw, but of another problem. */
+static void another_problem_is_caught(void)
+{
+    printf("\n");
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        double value[ORACLE_PARAMETERS], loosest = 0;
+        begin(*k, value);
+        CU_ASSERT_FALSE(caught(&loosest));
+        now.state = other_oracle;
+        for (size_t i = 0; (*k)->parameter[i].name != NULL; i++) {
+            double right = value[i], off = fmax(1e-8, 1e3 * loosest);
+            for (int sign = -1; sign <= 1; sign += 2) {
+                char why[ORACLE_WHY] = "";
+                value[i] = right * (1 + sign * off);
+                if (!oracle_create(*k, value, &now.other, why)) {
+                    CU_ASSERT_TRUE(right == floor(right)); /* one that counts something cannot be off by so little */
+                    continue;
+                }
+                bool seen = caught(NULL);
+                if (!seen) {
+                    printf("    %s: %s off by %.0e goes unseen\n", (*k)->name, (*k)->parameter[i].name, sign * off);
+                }
+                CU_ASSERT_TRUE(seen || right == 0);
+                (*k)->destroy(now.other);
+            }
+            value[i] = right;
+        }
+        (*k)->destroy(now.whole);
+    }
+}
+
+static void sign_of_v(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d;
+    velocity(X, t, -2, s);
+}
+
+static void sign_of_P(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d;
+    stress(X, t, -2, s);
+}
+
+static void no_unit_matrix(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d;
+    true_state(X, t, s);
+    s->F[0] -= 1;
+    s->F[4] -= 1;
+    s->F[8] -= 1;
+}
+
+static void frozen(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d, (void)t;
+    true_state(X, 0, s);
+}
+
+static void nothing(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d, (void)t, (void)X;
+    memset(s, 0, sizeof *s);
+    s->F[0] = s->F[4] = s->F[8] = 1;
+}
+
+static void nan_now_and_then(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d;
+    true_state(X, t, s);
+    s->P[0] = fmod(X[0] * 64, 8) < 1 ? NAN : s->P[0];
+}
+
+static void wrong_formulas_are_caught(void)
+{
+    static spoil_state *const states[] = {sign_of_v, sign_of_P, no_unit_matrix, frozen, nothing, nan_now_and_then};
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        double value[ORACLE_PARAMETERS];
+        begin(*k, value);
+        for (size_t i = 0; i < sizeof states / sizeof *states; i++) {
+            now.state = states[i];
+            bool seen = caught(NULL);
+            if (!seen) {
+                printf("%s: wrong formula %zu goes unseen\n", (*k)->name, i);
+            }
+            CU_ASSERT_TRUE(seen);
+        }
+        now.state = NULL;
+        CU_ASSERT_FALSE(caught(NULL));
+        now.kinetic = INFINITY;
+        CU_ASSERT_TRUE(caught(NULL));
+        (*k)->destroy(now.whole);
+    }
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"small changes are caught", small_changes_are_caught},
+        {"another problem is caught", another_problem_is_caught},
+        {"wrong formulas are caught", wrong_formulas_are_caught},
+    };
+    return unit_main("oracles: mutations of every kind", tests, sizeof tests / sizeof *tests);
+}
