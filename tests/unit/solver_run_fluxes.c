@@ -154,7 +154,7 @@ static struct sample observed(bool turned, const char *settings)
     char text[2048];
     (void)snprintf(text, sizeof text, motion, turned ? "0.7" : "0", turned ? "0.7" : "0");
     struct sample sample = start(text, "%s", settings);
-    advance(&sample, 40);
+    advance(&sample, 12);
     return sample;
 }
 
@@ -195,7 +195,7 @@ static void test_free_body_loses_energy(void)
                                            "evolved=pFHJ stencil=sbp4 n=8 integrator=rk4"};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         struct sample sample = observed(false, settings[i]);
-        advance_to(&sample, 3.0);
+        advance_to(&sample, 1.2);
         const struct solver_history *history = solver_run_history(sample.run);
         double before = INFINITY, rise = 0.0, most = 0.0;
         for (size_t row = 0; row < history->count; row++) {
