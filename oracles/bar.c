@@ -100,9 +100,9 @@ void bar_energy(const struct oracle_kind *kind, const struct oracle *oracle, con
     double from = bar->lower;
     for (size_t i = 0; i <= count; i++) {
         double to = i < count ? fmin(fmax(front[i].X, bar->lower), bar->upper) : bar->upper;
-        double cuts = fmax(1, ceil((to - from) / longest));
-        for (double cut = 0; cut < cuts; cut++) {
-            double a = from + cut / cuts * (to - from), b = from + (cut + 1) / cuts * (to - from);
+        int cuts = (int)fmax(1, ceil((to - from) / longest));
+        for (int cut = 0; cut < cuts; cut++) {
+            double a = from + (to - from) * cut / cuts, b = from + (to - from) * (cut + 1) / cuts;
             piece_energy(kind, oracle, bar, a, b, t, kinetic, strain);
         }
         from = fmax(from, to);

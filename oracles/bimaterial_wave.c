@@ -19,6 +19,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Round trips in either bar that the oracle follows; later it says NaN. */
 enum { ROUND_TRIPS = 4096 };
@@ -82,9 +83,7 @@ static void leave_interface(const struct oracle *o, enum channel channel, double
         return;
     }
     int most = (int)((t - T1) / (2 * T1));
-    for (int i = 0; i <= most; i++) {
-        row[i] = 0;
-    }
+    memset(row, 0, (size_t)(most + 1) * sizeof *row);
     for (int j = (int)((t - T1) / (2 * T2)); j >= 0; j--) {
         double d = 0;
         for (int i = most; i >= 0; i--) {
@@ -152,11 +151,12 @@ static size_t travelling(const struct oracle *o, const struct bar *bar, bool to_
 static size_t follow(const struct oracle *o, double from, double step, double bend, double t,
                      struct oracle_front front[ORACLE_FRONTS], size_t count)
 {
-    double row[ROUND_TRIPS + 1], T1 = o->left.T, T2 = o->right.T, R = o->R;
+    double row[ROUND_TRIPS + 2], T1 = o->left.T, T2 = o->right.T, R = o->R;
     double v = fabs(o->given.A1 * o->given.omega), least = fmax(fabs(step) / v, fabs(bend) / (v * o->given.omega));
-    for (int i = 0; from + 2 * i * T1 <= t; i++) {
-        row[i] = 0;
+    if (!(from <= t)) {
+        return count;
     }
+    memset(row, 0, (size_t)((t - from) / (2 * T1) + 2) * sizeof *row);
     for (int j = 0; from + 2 * j * T2 <= t; j++) {
         double D = 0;
         for (int i = 0; from + 2 * i * T1 + 2 * j * T2 <= t; i++) {

@@ -157,8 +157,9 @@ static void integrate_history(const struct history *history, double s, double or
     memset(sum, 0, 4 * sizeof *sum);
     double longest = 1 / (self_check_worse(history->of->check->frequency, s));
     for (size_t i = 0; i + 1 < history->count; i++) {
-        double from = history->at[i], length = history->at[i + 1] - from, cuts = ceil(length / longest);
-        for (double cut = 0; cut < cuts; cut++) {
+        double from = history->at[i], length = history->at[i + 1] - from;
+        int cuts = (int)ceil(length / longest);
+        for (int cut = 0; cut < cuts; cut++) {
             for (int n = 0; n < SELF_CHECK_NODES; n++) {
                 double weight, t = from + length / cuts * (cut + 0.5 + self_check_node(n, &weight) / 2);
                 struct oracle_state state;
@@ -311,10 +312,10 @@ static void swing(const struct problem *of, const struct mode *mode, struct self
 static void check_modes(const struct problem *of)
 {
     struct self_check_distance distance[3] = {0};
-    double step = asin(1.0) / (16 * (of->T1 + of->T2)), w = step / 2;
+    double step = asin(1.0) / (16 * (of->T1 + of->T2));
     int found = 0;
-    for (int i = 0; i < 4096 && found < MODES; i++, w += step) {
-        double lower = frequency_condition(of, w);
+    for (int i = 0; i < 4096 && found < MODES; i++) {
+        double w = (i + 0.5) * step, lower = frequency_condition(of, w);
         double upper = frequency_condition(of, w + step);
         if (lower * upper < 0) {
             struct mode mode = {.w = bisect(of, w, w + step), .left = 1};

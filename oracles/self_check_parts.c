@@ -256,9 +256,10 @@ void self_check_integrate(const struct self_check *check, const struct self_chec
         sum[i] = count == 0 ? NAN : 0;
     }
     for (size_t i = 0; i + 1 < count; i++) {
-        double length = place[i + 1] - place[i], cuts = fmax(1, ceil(length / longest));
-        for (double cut = 0; cut < cuts; cut++) {
-            integrate_along(&of, 0, place[i] + cut / cuts * length, place[i] + (cut + 1) / cuts * length, X, 1);
+        double from = place[i], length = place[i + 1] - from;
+        int cuts = (int)fmax(1, ceil(length / longest));
+        for (int cut = 0; cut < cuts; cut++) {
+            integrate_along(&of, 0, from + length * cut / cuts, from + length * (cut + 1) / cuts, X, 1);
         }
     }
 }

@@ -303,13 +303,15 @@ static void spoil_each_component(const struct oracle_kind *kind, const struct or
         spoil.factor = 0;
         spoil.shift = 1e-6 * field_size(largest, i);
         CU_ASSERT_TRUE(caught(&copy, oracle, failed));
-        spoil.tilt = spoil.shift;
         spoil.shift = 0;
-        CU_ASSERT_TRUE(caught(&copy, oracle, failed));
-        spoil.tilt = 0;
-        spoil.step = kind->fronts != NULL ? 1e-6 * field_size(largest, i) : 0;
-        CU_ASSERT_TRUE(spoil.step == 0 || caught(&copy, oracle, failed));
-        spoil.step = 0;
+        if (kind->fronts != NULL) { /* whose fields may be constant where they are smooth, and whose body has joints */
+            spoil.tilt = 1e-6 * field_size(largest, i);
+            CU_ASSERT_TRUE(caught(&copy, oracle, failed));
+            spoil.tilt = 0;
+            spoil.step = 1e-6 * field_size(largest, i);
+            CU_ASSERT_TRUE(caught(&copy, oracle, failed));
+            spoil.step = 0;
+        }
         spoil.factor = 1e-6;
         spoil.shift = 0;
         CU_ASSERT_TRUE(largest[i] < 1e-3 * field_size(largest, i) || caught(&copy, oracle, failed));
