@@ -46,7 +46,8 @@ bool solver_faces_create(const struct solver_scene *scene, const struct solver_s
             axes |= constrained_axes(scene->face[face], face / 2, dim);
             lasting |= scene->face[face] == SOLVER_MOTION ? 0 : constrained_axes(scene->face[face], face / 2, dim);
             clamped = clamped || scene->face[face] == SOLVER_CLAMPED;
-            motion = scene->face[face] == SOLVER_MOTION && motion < 0 ? (int)face : motion;
+            motion =
+                scene->face[face] == SOLVER_MOTION && motion < 0 ? (int)face : motion; /* the first of several leads */
         }
         if (axes == 0) {
             continue;

@@ -67,8 +67,9 @@ static bool add_vector(struct solver_record *record, const char *name, const cha
     return value != NULL;
 }
 
+/* In-plane blocks; out of the plane the diagonal has `normal`, or 1 where it is NULL. */
 static bool add_tensor(struct solver_record *record, const char *name, const char *unit, const double *source,
-                       double diagonal, struct solver_error *error)
+                       const double *normal, struct solver_error *error)
 {
     double *value = add_field(record, name, unit, 9, error);
     if (value == NULL) {
@@ -78,7 +79,7 @@ static bool add_tensor(struct solver_record *record, const char *name, const cha
     for (size_t a = 0; a < record->count; a++) {
         for (size_t i = 0; i < 3; i++) {
             if (i >= dim) {
-                value[9 * a + 3 * i + i] = diagonal;
+                value[9 * a + 3 * i + i] = normal != NULL ? normal[a] : 1.0;
             }
             for (size_t j = 0; i < dim && j < dim; j++) {
                 value[9 * a + 3 * i + j] = source[(a * dim + i) * dim + j];
@@ -106,9 +107,10 @@ static bool add_fields(struct solver_record *record, const struct solver_scene *
         return false;
     }
     record->field = field;
-    return add_tensor(record, "F", "-", output->F, 1.0, error) &&
-           (scene->evolved != SOLVER_PFHJ || add_tensor(record, "H", "-", output->H, 1.0, error)) &&
-           add_scalar(record, "J", "-", output->J, error) && add_tensor(record, "P", "Pa", output->P, 0.0, error) &&
+    return add_tensor(record, "F", "-", output->F, NULL, error) &&
+           (scene->evolved != SOLVER_PFHJ || add_tensor(record, "H", "-", output->H, output->J, error)) &&
+           add_scalar(record, "J", "-", output->J, error) &&
+           add_tensor(record, "P", "Pa", output->P, output->P_normal, error) &&
            add_vector(record, "displacement", "m", output->u, error) &&
            add_vector(record, "momentum", "kg/(m^2 s)", output->p, error) &&
            add_scalar(record, "pressure", "Pa", output->pressure, error) &&

@@ -21,8 +21,8 @@
 struct solver_record_field {
     char name[SOLVER_NAME]; /* "displacement", "velocity", "pressure", "von_mises", "F", "J", "P", "tags", ... */
     char unit[32];          /* "m", "Pa", "-" */
-    int width;     /* 1; 3 for vectors and 9 for tensors, padded below 3D: zeros, and 1 on the diagonal of F and
-                      H. The padding fills the shape that viewers expect; it is not the out-of-plane part. */
+    int width;     /* 1; 3 for vectors and 9 for tensors, below 3D with the out-of-plane part of plane strain: 1 on the
+                      diagonal of F, J on that of H, the normal stress on that of P, zeros elsewhere */
     double *value; /* [count][width] */
 };
 

@@ -24,6 +24,7 @@ struct solver_output {
     const double *H;         /* [count][dim*dim] cofactor (evolved, or that of F) */
     const double *J;         /* [count] Jacobian (evolved, or that of F) */
     const double *P;         /* [count][dim*dim] first Piola-Kirchhoff stress [Pa] */
+    const double *P_normal;  /* [count] its component out of the plane or line [Pa]; NULL in 3D */
     const double *pressure;  /* [count] mean Cauchy stress tr(sigma)/3 [Pa], positive in tension as in the papers */
     const double *von_mises; /* [count] von Mises equivalent of the Cauchy stress [Pa] */
 };

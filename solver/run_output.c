@@ -8,7 +8,7 @@
 
 /* Where each array of solver_output lies within the run's output block, in doubles per particle. */
 struct layout {
-    size_t u, v, p, F, H, J, P, pressure, von_mises, width;
+    size_t u, v, p, F, H, J, P, P_normal, pressure, von_mises, width;
 };
 
 static struct layout lay_out(size_t dim)
@@ -17,7 +17,8 @@ static struct layout lay_out(size_t dim)
     at.H = at.F + dim * dim;
     at.P = at.H + dim * dim;
     at.J = at.P + dim * dim;
-    at.pressure = at.J + 1;
+    at.P_normal = at.J + 1;
+    at.pressure = at.P_normal + (dim < 3 ? 1 : 0);
     at.von_mises = at.pressure + 1;
     at.width = at.von_mises + 1;
     return at;
@@ -54,8 +55,8 @@ static void measures_of(const struct solver_run *run, size_t a, double *H, doubl
 }
 
 /* Mean and von Mises equivalent of the Cauchy stress sigma = P F^T / J; with linear kinematics sigma = P. */
-static void cauchy(const struct solver_run *run, const struct solver_material_constants *of_a, const double *F,
-                   double J, const double *P, double *mean, double *von_mises)
+static void cauchy(const struct solver_run *run, const double *F, double J, const double *P, double P_normal,
+                   double *mean, double *von_mises)
 {
     size_t dim = (size_t)run->cloud->dim;
     double sigma[3][3] = {{0}};
@@ -67,7 +68,7 @@ static void cauchy(const struct solver_run *run, const struct solver_material_co
         }
     }
     for (size_t i = dim; i < 3; i++) {
-        sigma[i][i] = run->work.material->stress_normal(of_a, F, J) / (run->work.frozen ? 1.0 : J);
+        sigma[i][i] = P_normal / (run->work.frozen ? 1.0 : J);
     }
     *mean = (sigma[0][0] + sigma[1][1] + sigma[2][2]) / 3.0;
     double square = 0.0;
@@ -104,8 +105,13 @@ bool solver_run_output(struct solver_run *run, struct solver_output *output, str
         rows_of(run, work->F, a, F);
         rows_of(run, work->P, a, P);
         measures_of(run, a, out + count * at.H + a * dim * dim, out + count * at.J + a);
-        cauchy(run, work->constants + a * work->stride, F, out[count * at.J + a], P, out + count * at.pressure + a,
-               out + count * at.von_mises + a);
+        double J = out[count * at.J + a];
+        double P_normal = 0.0;
+        if (dim < 3) {
+            P_normal = work->material->stress_normal(work->constants + a * work->stride, F, J);
+            out[count * at.P_normal + a] = P_normal;
+        }
+        cauchy(run, F, J, P, P_normal, out + count * at.pressure + a, out + count * at.von_mises + a);
     }
     *output = (struct solver_output){.cloud = run->cloud,
                                      .time = run->time,
@@ -118,6 +124,7 @@ bool solver_run_output(struct solver_run *run, struct solver_output *output, str
                                      .H = out + count * at.H,
                                      .J = out + count * at.J,
                                      .P = out + count * at.P,
+                                     .P_normal = dim < 3 ? out + count * at.P_normal : NULL,
                                      .pressure = out + count * at.pressure,
                                      .von_mises = out + count * at.von_mises};
     return true;

@@ -10,7 +10,7 @@ import sys
 TOP = {"scene", "oracle", "scheme", "stencil", "levels", "rates", "gates", "pass"}
 LEVEL = {"n", "h", "particles", "steps", "seconds", "ns_per_particle_step", "errors"}
 GATE = {"name", "value", "bound", "op", "pass"}
-ERRORS = {f + e for f in ("p", "P", "P_all", "u", "F", "probes") for e in ("", "_abs", "_max", "_abs_max")}
+ERRORS = {f + e for f in ("p", "P", "P_all", "u", "F", "probes") for e in ("", "_abs", "_max", "_abs_max", "_l1")}
 
 
 def demand(condition, what):

@@ -47,8 +47,8 @@ def check_values(where, dim, grid):
         trace = sum(G[i][i] for i in range(3))
         expected = {
             "F": [G[i][j] + (i == j) for i in range(3) for j in range(3)],
-            "H": [(i == j) - G[i][j] for i in range(3) for j in range(3)],
-            "P": [1e6 * G[i][j] for i in range(3) for j in range(3)],
+            "H": [(1 + trace if i >= dim else 1) * (i == j) - G[i][j] for i in range(3) for j in range(3)],
+            "P": [1e6 * G[i][j] + (3e5 + a) * (i == j >= dim) for i in range(3) for j in range(3)],
             "J": [1 + trace], "displacement": u, "velocity": v, "momentum": [1100 * w for w in v],
             "pressure": [1e6 * trace / 3], "von_mises": [2e6 * trace], "volume": [0.125 + 0.001 * a], "tags": [a % 64],
         }

@@ -73,6 +73,7 @@ bool verify_gates_judge(const struct solver_scene *scene, const double error[VER
         any_with_conditions = any_with_conditions || (met[i] && scene->gate[i].conditions > 0);
     }
     gates->count = 0;
+    gates->general = !any_with_conditions;
     gates->pass = true;
     for (size_t i = 0; i < scene->gate_count; i++) {
         for (size_t j = 0; j < scene->gate[i].bounds; j++) {

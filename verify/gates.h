@@ -22,7 +22,8 @@ struct verify_gate {
 struct verify_gates {
     size_t count; /* 0: no rule of the scene holds for this configuration, so nothing was judged */
     struct verify_gate gate[VERIFY_GATES];
-    bool pass; /* at least one gate, and all of them pass */
+    bool general; /* only rules without conditions hold: nothing was asked of this configuration in particular */
+    bool pass;    /* at least one gate, and all of them pass */
 };
 
 /* Whether `value op bound` holds, op being "<=" or ">=". A value or bound that is not finite never passes: it is no

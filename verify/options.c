@@ -128,6 +128,18 @@ static bool once(const struct verify_command *command, const struct option *opti
     return true;
 }
 
+/* A file to write whose name must end as its content does: a slip of the hand must not replace a scene or a record. */
+static bool output(const struct verify_command *command, const struct option *option, const char **place,
+                   const char *value, const char *suffix, struct solver_error *error)
+{
+    size_t length = strlen(value);
+    if (length <= strlen(suffix) || strcmp(value + length - strlen(suffix), suffix) != 0) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "assay %s: %s %s: expected a name that ends in %s", command->name,
+                           option->name, value, suffix);
+    }
+    return once(command, option, place, value, error);
+}
+
 static bool apply(const struct verify_command *command, const struct option *option, const char *value,
                   struct verify_options *options, struct solver_error *error)
 {
@@ -137,11 +149,11 @@ static bool apply(const struct verify_command *command, const struct option *opt
     case VERIFY_TAKES_LEVELS:
         return read_levels(command, value, options, error);
     case VERIFY_TAKES_JSON:
-        return once(command, option, &options->json, value, error);
+        return output(command, option, &options->json, value, ".json", error);
     case VERIFY_TAKES_OUT:
         return once(command, option, &options->out, value, error);
     case VERIFY_TAKES_PICTURE:
-        return once(command, option, &options->picture, value, error);
+        return output(command, option, &options->picture, value, ".png", error);
     case VERIFY_TAKES_DIR:
         return once(command, option, &options->dir, value, error);
     default:

@@ -89,12 +89,11 @@ static void head(FILE *file, const struct verify_study *study)
     (void)fprintf(file, "</p>\n");
     if (!study->truth->proven) {
         (void)fprintf(file, "<p class=\"verdict fail\">FAIL: the oracle does not prove itself.</p>\n");
-    } else if (study->gates.count == 0) {
-        (void)fprintf(file,
-                      "<p class=\"verdict\">NOT JUDGED: no gate of the scene holds for this configuration.</p>\n");
     } else {
-        (void)fprintf(file, "<p class=\"verdict %s</p>\n",
-                      study->gates.pass ? "pass\">PASS: all gates hold." : "fail\">FAIL: a gate does not hold.");
+        const char *class = study->gates.count == 0 || (study->gates.pass && study->gates.general) ? ""
+                            : study->gates.pass                                                    ? "pass"
+                                                                                                   : "fail";
+        (void)fprintf(file, "<p class=\"verdict %s\">%s.</p>\n", class, verify_verdict(study));
     }
 }
 

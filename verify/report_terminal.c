@@ -151,7 +151,7 @@ static void print_gates(FILE *file, const struct verify_study *study)
         (void)fprintf(file, "  %-16s %12.4g %s %-12.4g [%s]  %s%s\n", gate->name, gate->value, gate->op, gate->bound,
                       gate->unit, gate->pass ? "PASS" : "FAIL", isfinite(gate->value) ? "" : " (nothing was measured)");
     }
-    (void)fprintf(file, "%s\n", study->gates.pass ? "PASS: all gates hold" : "FAIL: a gate does not hold");
+    (void)fprintf(file, "%s\n", verify_verdict(study));
 }
 
 void verify_terminal_end(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)

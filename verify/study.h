@@ -55,7 +55,11 @@ void verify_study_free(struct verify_study *study);
 /* Judges the scene's gates on the finest level. */
 bool verify_study_judge(struct verify_study *study, struct solver_error *error);
 
-/* The published value of an error at n spacings; NaN if there is none. */
+/* One line: what the gates say. */
+const char *verify_verdict(const struct verify_study *study);
+
+/* The published value of an error at n spacings; NaN if there is none, or if the command line
+ * changed what is simulated (material, times, parameters, ...) rather than how. */
 double verify_published(const struct solver_scene *scene, int n, const char *error_name);
 
 /* Errors worth a column: those published and those that a gate judges; p and P where there are none. Returns how many.

@@ -18,7 +18,7 @@ struct body {
     struct solver_history history;
     double X[3 * BODY_MOST], V[BODY_MOST], u[3 * BODY_MOST], v[3 * BODY_MOST], p[3 * BODY_MOST];
     double F[9 * BODY_MOST], H[9 * BODY_MOST], J[BODY_MOST], P[9 * BODY_MOST];
-    double pressure[BODY_MOST], von_mises[BODY_MOST];
+    double pressure[BODY_MOST], von_mises[BODY_MOST], P_normal[BODY_MOST];
     uint32_t tags[BODY_MOST], cell[8 * BODY_MOST];
     struct solver_totals totals[BODY_ROWS];
     char probe_name[BODY_PROBES][64];
@@ -65,6 +65,7 @@ static inline void body_particle(struct body *body, size_t a, size_t dim, const 
     body->J[a] = 1.0 + trace;
     body->pressure[a] = 1e6 * trace / 3.0;
     body->von_mises[a] = 2e6 * trace;
+    body->P_normal[a] = 3e5 + (double)a;
     body->V[a] = 0.125 + 0.001 * (double)a;
     body->tags[a] = (uint32_t)(a % 64);
 }
@@ -136,6 +137,7 @@ static inline struct body *body_make(int dim)
                                           .H = body->H,
                                           .J = body->J,
                                           .P = body->P,
+                                          .P_normal = dim < 3 ? body->P_normal : NULL,
                                           .pressure = body->pressure,
                                           .von_mises = body->von_mises};
     return body;

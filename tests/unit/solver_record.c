@@ -125,8 +125,9 @@ static void padding(void)
     struct solver_record *record = made(2);
     const double *F = solver_record_find(record, "F")->value, *P = solver_record_find(record, "P")->value;
     const double *H = solver_record_find(record, "H")->value, *u = solver_record_find(record, "displacement")->value;
+    const double *J = solver_record_find(record, "J")->value;
     for (size_t a = 0; a < record->count; a++) {
-        CU_ASSERT(F[9 * a + 8] == 1.0 && H[9 * a + 8] == 1.0 && P[9 * a + 8] == 0.0);
+        CU_ASSERT(F[9 * a + 8] == 1.0 && H[9 * a + 8] == J[a] && P[9 * a + 8] == 3e5 + (double)a);
         CU_ASSERT(F[9 * a + 2] == 0.0 && F[9 * a + 5] == 0.0 && F[9 * a + 6] == 0.0 && F[9 * a + 7] == 0.0);
         CU_ASSERT(u[3 * a + 2] == 0.0 && record->X[3 * a + 2] == 0.0);
         CU_ASSERT(fabs(F[9 * a + 1] - 3e-3 * (1.0 + 0.1 * record->X[3 * a])) < 1e-16);

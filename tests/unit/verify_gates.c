@@ -64,6 +64,7 @@ static void the_rule_that_holds(void)
     prepare();
     CU_ASSERT_TRUE_FATAL(judge());
     CU_ASSERT_EQUAL_FATAL(gates.count, 2);
+    CU_ASSERT_FALSE(gates.general);
     CU_ASSERT_TRUE(gates.pass);
     CU_ASSERT_STRING_EQUAL(gates.gate[0].name, "p");
     CU_ASSERT_STRING_EQUAL(gates.gate[0].op, "<=");
@@ -104,6 +105,7 @@ static void without_conditions(void)
     CU_ASSERT_STRING_EQUAL(gates.gate[0].name, "P_abs");
     CU_ASSERT_STRING_EQUAL(gates.gate[0].unit, "Pa");
     CU_ASSERT_TRUE(gates.pass);
+    CU_ASSERT_TRUE(gates.general); /* and the verdict says that this is all */
 }
 
 static void all_conditions_count(void)

@@ -3,6 +3,7 @@
 #include "verify/study.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static void power_laws(void)
 {
@@ -69,6 +70,18 @@ static void published_rows(void)
     CU_ASSERT(verify_published(&scene, 16, "p") == 2.198e-4);
     CU_ASSERT(isnan(verify_published(&scene, 16, "P")));
     CU_ASSERT(isnan(verify_published(&scene, 8, "p")));
+    /* another method is compared with what was published, another problem is not */
+    static const char *const methods[] = {"", "n=16\n", "stencil=closed\ncfl=0.3\n", "oracle.nu=0.3\nview.bands=4\n"};
+    static const char *const problems[] = {"material.nu=0.3\n", "n=16\nU0=1\n", "t_end=1\n", "cflx=1\n"};
+    for (size_t i = 0; i < 4; i++) {
+        char line[64];
+        scene.overrides = line;
+        (void)snprintf(line, sizeof line, "%s", methods[i]);
+        CU_ASSERT(verify_published(&scene, 16, "p") == 2.198e-4);
+        (void)snprintf(line, sizeof line, "%s", problems[i]);
+        CU_ASSERT(isnan(verify_published(&scene, 16, "p")));
+    }
+    scene.overrides = NULL;
     size_t shown[VERIFY_ERRORS];
     struct solver_error error;
     CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 1);
