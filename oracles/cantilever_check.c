@@ -3,7 +3,7 @@
  * A Ritz solution satisfies clamp and symmetry exactly. The equation of motion and the free faces it satisfies the
  * better the higher the degree of its polynomials; at the corners of the clamp the stress is singular and the degree
  * low. So what is differentiated lies two heights from the clamp and one from the free end, or further. What remains
- * there, and between two meshes that have no line in common, is RITZ at most. */
+ * there, and between two meshes of other grading and degrees, is RITZ at most: for the source's plate 4e-8. */
 #include "oracles/cantilever.h"
 #include "oracles/self_check_parts.h"
 
@@ -31,16 +31,14 @@ static void hooke(const struct self_check *check, const double G[9], double P[9]
     }
 }
 
-enum law { VELOCITY, MOMENTUM, GRADIENT, STRESS, MOTION, MIRROR, LAWS };
+enum law { VELOCITY, MOMENTUM, GRADIENT, STRESS, MOTION, MIRROR_U, MIRROR_V, MIRROR_P, LAWS };
 
-/* What a field looks like from the other side of y = 0: x components that change sign, and those that do not. */
+/* What u, v and P look like from the other side of y = 0: some components change sign. */
 static void mirror(struct oracle_state *s)
 {
     s->u[0] = -s->u[0];
     s->v[0] = -s->v[0];
-    s->p[0] = -s->p[0];
     for (int i = 0; i < 9; i += 4) {
-        s->F[i] = 2 - s->F[i];
         s->P[i] = -s->P[i];
     }
 }
@@ -75,7 +73,9 @@ static void differentiate(struct self_check *check, size_t i, struct self_check_
     spot.X[1] = -spot.X[1];
     check->kind->state(check->oracle, spot.X, spot.t, &other);
     mirror(&other);
-    self_check_measure(&law[MIRROR], state.u, other.u, 3);
+    self_check_measure(&law[MIRROR_U], state.u, other.u, 3);
+    self_check_measure(&law[MIRROR_V], state.v, other.v, 3);
+    self_check_measure(&law[MIRROR_P], state.P, other.P, 9);
 }
 
 /* Sets the scales, which those that follow use. */
@@ -96,7 +96,10 @@ static void differentials(struct self_check *check)
                     law[STRESS].error / ((check->bulk + 4 * check->mu / 3) * self_check_gradient_scale(check, local)),
                     local);
     self_check_line(check, "dp/dt = Div P", self_check_relative(law[MOTION].error, law[MOTION].size), RITZ);
-    self_check_line(check, "mirror image", self_check_relative(law[MIRROR].error, check->of.u), local);
+    double mirrored = self_check_relative(law[MIRROR_U].error, check->of.u);
+    mirrored = self_check_worse(mirrored, self_check_relative(law[MIRROR_V].error, check->of.v));
+    mirrored = self_check_worse(mirrored, self_check_relative(law[MIRROR_P].error, check->of.stress));
+    self_check_line(check, "mirror image", mirrored, local);
 }
 
 /* At t = 0: nothing is bent, and the middle of the free end has its velocity. */
