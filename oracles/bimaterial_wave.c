@@ -25,8 +25,8 @@
 enum { ROUND_TRIPS = 4096 };
 /* How far times of travel, the driven time and the phase may lie apart, so that a self-check ends. */
 static const double MOST_TRAVEL = 100, MOST_PATHS = 400, MOST_PHASE = 2000;
-/* Fronts that are this part of the first one cannot be told from round-off. */
-static const double NEGLIGIBLE = 1e-12;
+/* Fronts that are this part of the first one are not listed; jumps that are, cannot be told from kinks. */
+static const double NEGLIGIBLE = 1e-15, NO_JUMP = 1e-12;
 
 struct oracle {
     struct bimaterial_wave_given given;
@@ -191,7 +191,7 @@ static size_t fronts(const struct oracle *o, double t, struct oracle_front front
         count = follow(o, g->t1, o->jump, o->bend, t, front, count);
     }
     for (size_t i = 0; count != ORACLE_TOO_MANY_FRONTS && i < count; i++) {
-        bool jumps = fabs(front[i].jump) > NEGLIGIBLE * fabs(g->A1 * g->omega);
+        bool jumps = fabs(front[i].jump) > NO_JUMP * fabs(g->A1 * g->omega);
         front[i].jump = jumps ? front[i].jump : 0;
         front[i].smoothness = jumps ? ORACLE_JUMPS : ORACLE_KINKS;
     }

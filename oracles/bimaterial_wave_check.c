@@ -313,6 +313,7 @@ static void check_modes(const struct problem *of)
 {
     struct self_check_distance distance[3] = {0};
     double step = asin(1.0) / (16 * (of->T1 + of->T2));
+    double fastest = 0;
     int found = 0;
     for (int i = 0; i < 4096 && found < MODES; i++) {
         double w = (i + 0.5) * step, lower = frequency_condition(of, w);
@@ -327,10 +328,11 @@ static void check_modes(const struct problem *of)
             mode.left /= size;
             mode.right /= size;
             swing(of, &mode, distance);
+            fastest = mode.w;
             found++;
         }
     }
-    self_check_mode_lines(of->check, distance);
+    self_check_mode_lines(of->check, distance, fastest);
 }
 
 /* Long enough for some reflections at the interface and both ends, in whichever bar they are quicker. */

@@ -171,7 +171,7 @@ static void compare_modes(struct self_check *check, const struct given *g)
             }
         }
     }
-    self_check_mode_lines(check, of);
+    self_check_mode_lines(check, of, MODES * PI / g->L * sqrt(g->E / g->rho));
 }
 
 static size_t check(const struct oracle_kind *kind, const struct oracle *oracle, struct oracle_check *line, size_t size)

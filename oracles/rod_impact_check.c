@@ -147,7 +147,7 @@ static void check_modes(struct self_check *check)
     self_check_line(check, "contact: stress constant between changes", self_check_relative(uneven, check->of.stress),
                     bound);
     self_check_line(check, "momentum of each rod = impulse", bodily, bound);
-    self_check_mode_lines(check, of);
+    self_check_mode_lines(check, of, MODES * PI * check->frequency); /* of the quicker rod */
 }
 
 size_t rod_impact_check(const struct oracle_kind *kind, const struct oracle *oracle, struct oracle_check *line,

@@ -24,9 +24,9 @@ void self_check_mode(const struct self_check *check, const struct self_check_bod
     self_check_integrate(check, body, t, longest, project, &mode, amplitude);
 }
 
-void self_check_mode_lines(struct self_check *check, const struct self_check_distance of[3])
+void self_check_mode_lines(struct self_check *check, const struct self_check_distance of[3], double frequency)
 {
-    double bound = 64 * self_check_round_off(check);
+    double bound = 64 * self_check_round_off(check) * fmax(1, frequency / check->frequency);
     self_check_line(check, "modal series: u", self_check_relative(of[0].error, of[0].size), bound);
     self_check_line(check, "modal series: v", self_check_relative(of[1].error, of[1].size), bound);
     self_check_line(check, "modal series: P", self_check_relative(of[2].error, of[2].size), bound);

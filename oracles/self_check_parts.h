@@ -77,8 +77,9 @@ void self_check_integrate(const struct self_check *check, const struct self_chec
  * k > 0, each from its own field: q by u, dq/dt by v, and q by P. */
 void self_check_mode(const struct self_check *check, const struct self_check_body *body, double t, double k, double X0,
                      double amplitude[3]);
-/* Adds the lines that compare those with the modal solution. */
-void self_check_mode_lines(struct self_check *check, const struct self_check_distance of[3]);
+/* Adds the lines that compare those with the modal solution, the fastest mode of which has `frequency` [rad/s]: the
+ * round-off is that of its phase. */
+void self_check_mode_lines(struct self_check *check, const struct self_check_distance of[3], double frequency);
 /* The rule itself, on [-1, 1]. */
 enum { SELF_CHECK_NODES = 10 };
 double self_check_node(int n, double *weight);
