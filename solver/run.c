@@ -221,6 +221,11 @@ bool solver_run_create(const struct solver_scene *scene, struct solver_run **out
     if (!solver_alloc((void **)&run, 1, sizeof *run, "run", error)) {
         return false;
     }
+    if (strcmp(scene->initial_from, "oracle") == 0 && scene->start == NULL) {
+        solver_run_free(run);
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: initial.from: the scene starts from its oracle, and none was given", scene->path);
+    }
     run->scene = scene;
     if (!build(run, error)) {
         solver_run_free(run);

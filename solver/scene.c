@@ -199,6 +199,9 @@ static int read_scene(lua_State *L)
                      "material.nu: 0.5 is incompressible, which needs a solver that is not there yet; take nu < 0.5, "
                      "say 0.4999");
     check_domain(L, scene);
+    for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)
+        if (solver_scene_has(scene, (enum solver_formula)f))
+            scene_refuse(L, "initial.from: the oracle gives the initial state, and the scene a formula for it besides");
     if (scene->has_view)
         check_view(L, &scene->view);
     read_resolution(L, scene);

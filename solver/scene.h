@@ -89,6 +89,9 @@ struct solver_view {
     int size[2];    /* pixels */
 };
 
+/* The state at t = 0 at X [m]: displacement [m], velocity [m/s], F row by row, 3D. */
+typedef void solver_start(const void *context, const double X[3], double u[3], double v[3], double F[9]);
+
 struct solver_scene {
     char path[4096];
     char name[SOLVER_NAME]; /* file name without folder and .lua */
@@ -122,6 +125,7 @@ struct solver_scene {
     int threads;                 /* 0: as many as there are cores and the work is worth */
 
     enum solver_face_kind face[SOLVER_FACES]; /* X0, X1, Y0, Y1, Z0, Z1 */
+    char initial_from[SOLVER_NAME];           /* "formulas", or "oracle": see solver_scene_start_from */
     double face_until[SOLVER_FACES];          /* [s] a moved face is free after this time; infinite otherwise */
     struct solver_probe probe[SOLVER_PROBES];
     size_t probe_count;
@@ -137,6 +141,8 @@ struct solver_scene {
     bool has_view;
     struct solver_view view;
 
+    solver_start *start; /* NULL: the formulas */
+    void *start_context;
     struct solver_scene_lua *lua; /* the interpreter that holds the formulas; private */
 };
 
@@ -152,6 +158,9 @@ bool solver_scene_has(const struct solver_scene *scene, enum solver_formula form
  * errors name file, key and place. Not thread-safe: one interpreter per scene. */
 bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula formula, const double X[3], double t,
                        double *out, size_t count, struct solver_error *error);
+/* Initial displacement, velocity and F come from `start` in place of formulas, while `context` lasts. A scene with
+ * initial.from = "oracle" needs this before a run of it is created: the solver knows no oracles. */
+void solver_scene_start_from(struct solver_scene *scene, solver_start *start, void *context);
 /* A number of the scene by its path: "material.nu", "cfl", or one of the scene's parameters ("U0").
  * False if there is none of that name. */
 bool solver_scene_number(const struct solver_scene *scene, const char *path, double *value);

@@ -59,6 +59,8 @@ X("t_end", NUMBER, AT(t_end), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [s
 X("precision", WORD, AT(precision), 0, 0, 0, "double | mixed", "double", "one of double", "floating-point precision")  \
 X("threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
   "threads; 0: as many as there are cores and the work is worth")                                                     \
+X("initial.from", WORD, AT(initial_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",             \
+  "whether formulas or the exact solution give the initial state")                                                     \
 X("initial.displacement", FORMULA, SOLVER_INITIAL_DISPLACEMENT, 0, 0, 0, "", OPTIONAL, FORMULA,                        \
   "initial displacement [m]; default 0")                                                                               \
 X("initial.velocity", FORMULA, SOLVER_INITIAL_VELOCITY, 0, 0, 0, "", OPTIONAL, FORMULA,                                \

@@ -207,7 +207,29 @@ void scene_lua_keep_formula(lua_State *L, enum solver_formula formula)
 
 bool solver_scene_has(const struct solver_scene *scene, enum solver_formula formula)
 {
-    return scene->lua->formula[formula] != LUA_NOREF;
+    bool given = scene->start != NULL && formula <= SOLVER_INITIAL_F;
+    return given || scene->lua->formula[formula] != LUA_NOREF;
+}
+
+void solver_scene_start_from(struct solver_scene *scene, solver_start *start, void *context)
+{
+    scene->start = start;
+    scene->start_context = context;
+}
+
+/* What was given in place of an initial formula. */
+static void ask_start(const struct solver_scene *scene, enum solver_formula formula, const double X[3], double *out)
+{
+    double u[3], v[3], F[9];
+    size_t dim = (size_t)scene->dim;
+    scene->start(scene->start_context, X, u, v, F);
+    if (formula != SOLVER_INITIAL_F) {
+        memcpy(out, formula == SOLVER_INITIAL_VELOCITY ? v : u, dim * sizeof *out);
+        return;
+    }
+    for (size_t i = 0; i < dim; i++) {
+        memcpy(out + i * dim, F + 3 * i, dim * sizeof *out);
+    }
 }
 
 struct question {
@@ -265,6 +287,10 @@ bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula for
                            count);
     if (!solver_scene_has(scene, formula))
         return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: %s: the scene gives no such formula", scene->path, name);
+    if (scene->start != NULL && formula <= SOLVER_INITIAL_F) {
+        ask_start(scene, formula, X, out);
+        return true;
+    }
     snprintf(lua->doing, sizeof lua->doing, "%s at X = (%.6g, %.6g, %.6g), t = %.6g", name, X[0], X[1], X[2], t);
     bool good = scene_lua_protect(lua, call_formula, &ask, error);
     lua->doing[0] = '\0';

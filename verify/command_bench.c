@@ -1,6 +1,7 @@
 /* assay bench: what a particle-step costs, beside what the machine's memory allows. */
 #include "verify/commands.h"
 #include "verify/find.h"
+#include "verify/simulate.h"
 
 #include "solver/integrator.h"
 #include "solver/run.h"
@@ -105,7 +106,7 @@ static bool row(const struct verify_options *options, const char *stencil, const
     struct solver_scene *scene = NULL;
     struct solver_run *run = NULL;
     double seconds;
-    bool done = verify_scene_open(&with, 0, &scene, error) && solver_run_create(scene, &run, error) &&
+    bool done = verify_scene_open(&with, 0, &scene, error) && verify_run_create(scene, &run, error) &&
                 time_steps(run, &seconds, error);
     if (done) {
         struct solver_facts facts = solver_run_facts(run);

@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 /* Runs the scene at its coarsest level and writes STEM.vtkhdf and STEM.png to a folder. */
-static bool make(const struct verify_options *options, const struct solver_scene *scene, const char *folder,
-                 const char *stem, struct solver_error *error)
+static bool make(const struct verify_options *options, struct solver_scene *scene, const char *folder, const char *stem,
+                 struct solver_error *error)
 {
     char record_path[VERIFY_PATH], picture[VERIFY_PATH];
     struct solver_run *run = NULL;
@@ -28,7 +28,7 @@ static bool make(const struct verify_options *options, const struct solver_scene
     return done;
 }
 
-static bool update(const struct verify_options *options, const struct solver_scene *scene, const char *golden,
+static bool update(const struct verify_options *options, struct solver_scene *scene, const char *golden,
                    struct solver_error *error)
 {
     char beside[VERIFY_PATH];
@@ -106,8 +106,8 @@ static bool compare_pictures(const char *stored_path, const char *fresh_path, co
     return done;
 }
 
-static bool check(const struct verify_options *options, const struct solver_scene *scene, const char *golden,
-                  bool *same, struct solver_error *error)
+static bool check(const struct verify_options *options, struct solver_scene *scene, const char *golden, bool *same,
+                  struct solver_error *error)
 {
     char folder[VERIFY_PATH], stored[VERIFY_PATH], fresh[VERIFY_PATH], stem[SOLVER_NAME + 8];
     (void)snprintf(stem, sizeof stem, "%s.fresh", scene->name);

@@ -39,8 +39,7 @@ static bool keep(const struct solver_scene *scene, struct solver_run *run, const
     return drawn;
 }
 
-static bool run_scene(const struct solver_scene *scene, const struct verify_options *options,
-                      struct solver_error *error)
+static bool run_scene(struct solver_scene *scene, const struct verify_options *options, struct solver_error *error)
 {
     char folder[VERIFY_PATH];
     struct solver_run *run = NULL;

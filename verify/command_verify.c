@@ -68,7 +68,7 @@ static bool draw(struct work *work, struct solver_error *error)
 /* Runs one level and adds it to the study; keeps record and pictures of the finest. */
 static bool run_level(struct work *work, size_t index, struct solver_error *error)
 {
-    const struct solver_scene *scene = work->scene;
+    struct solver_scene *scene = work->scene;
     struct verify_level level = {.n = work->level[index]};
     struct solver_run *run = NULL;
     struct solver_output output;

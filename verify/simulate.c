@@ -3,9 +3,11 @@
 #include "solver/record.h"
 #include "verify/files.h"
 #include "verify/progress.h"
+#include "verify/truth.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool verify_record(const struct solver_scene *scene, struct solver_run *run, const char *folder, const char *stem,
@@ -43,7 +45,41 @@ static bool arrived(const struct solver_scene *scene, struct solver_run *run, st
     return true;
 }
 
-bool verify_simulate(const struct solver_scene *scene, const char *folder, const char *command, struct solver_run **run,
+static void start_of(const void *context, const double X[3], double u[3], double v[3], double F[9])
+{
+    const struct verify_truth *truth = context;
+    struct oracle_state state;
+    truth->kind->state(truth->oracle, X, 0.0, &state);
+    memcpy(u, state.u, sizeof state.u);
+    memcpy(v, state.v, sizeof state.v);
+    memcpy(F, state.F, sizeof state.F);
+}
+
+bool verify_run_create(struct solver_scene *scene, struct solver_run **run, struct solver_error *error)
+{
+    if (strcmp(scene->initial_from, "oracle") != 0) {
+        return solver_run_create(scene, run, error);
+    }
+    *run = NULL;
+    struct verify_truth *truth = calloc(1, sizeof *truth);
+    if (truth == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the oracle");
+    }
+    size_t told = scene->oracle_told_count;
+    scene->oracle_told_count = 0;
+    bool done = verify_truth_create(scene, truth, error);
+    scene->oracle_told_count = told;
+    if (done) {
+        solver_scene_start_from(scene, start_of, truth);
+        done = solver_run_create(scene, run, error);
+        solver_scene_start_from(scene, NULL, NULL);
+        verify_truth_free(truth);
+    }
+    free(truth);
+    return done;
+}
+
+bool verify_simulate(struct solver_scene *scene, const char *folder, const char *command, struct solver_run **run,
                      struct solver_error *error)
 {
     char label[SOLVER_NAME + 32];
@@ -51,7 +87,7 @@ bool verify_simulate(const struct solver_scene *scene, const char *folder, const
     struct verify_progress progress;
     verify_progress_begin(&progress, label);
     *run = NULL;
-    if (!solver_run_create(scene, run, error)) {
+    if (!verify_run_create(scene, run, error)) {
         verify_progress_end(&progress);
         return false;
     }

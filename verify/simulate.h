@@ -4,9 +4,13 @@
 
 #include "solver/run.h"
 
+/* Creates a run; one of a scene that starts from its oracle gets the initial state from it, as the scene's own values
+ * have it: what oracle.KEY tells the oracle does not reach the run. */
+bool verify_run_create(struct solver_scene *scene, struct solver_run **run, struct solver_error *error);
+
 /* Creates a run and advances it to the scene's end time. If it breaks down, writes FOLDER/SCENE.last-good.vtkhdf and
  * says so at the end of the error's text. On failure *run is NULL. */
-bool verify_simulate(const struct solver_scene *scene, const char *folder, const char *command, struct solver_run **run,
+bool verify_simulate(struct solver_scene *scene, const char *folder, const char *command, struct solver_run **run,
                      struct solver_error *error);
 
 /* Writes the run's present state to FOLDER/STEM.vtkhdf (and .xdmf) and gives the path (VERIFY_PATH bytes). */

@@ -112,6 +112,8 @@ static void bad_parts(void)
         {0, "faces = { X0 = 'traction' }", 0, "faces.X0: 'traction' needs value = function(X, Y, Z, t) returning 2"},
         {0, "faces = { X0 = { kind = 'motion', value = 3 } }", 0, "faces.X0: 'motion' needs value = function"},
         {0, "faces = { X0 = { kind = 'free', value = function() end } }", 0, "faces.X0: 'free' takes no value"},
+        {"initial = { velocity", "initial = { from = 'oracle', velocity", 0,
+         "initial.from: the oracle gives the initial state, and the scene a formula"},
         {0, "faces = { X0 = { kind = 'free', speed = 1 } }", 0,
          "faces.X0.speed: unknown key; expected kind, value and free_after"},
         {0, "faces = { X0 = { kind = 'clamped', free_after = 1 } }", 0,

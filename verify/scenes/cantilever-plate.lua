@@ -16,16 +16,9 @@ t_end = 1 -- s
 
 faces = { X0 = "clamped", X1 = "free", Y0 = "free", Y1 = "free" }
 
-local k = 1.875104068711961 / L
-local cos, sin = math.cos, math.sin
-local function cosh(x) return (math.exp(x) + math.exp(-x)) / 2 end
-local function sinh(x) return (math.exp(x) - math.exp(-x)) / 2 end
-local function shape(x)
-    return (cos(k * L) + cosh(k * L)) * (cosh(k * x) - cos(k * x)) + (sin(k * L) - sinh(k * L)) * (sinh(k * x) - sin(k * x))
-end
-initial = {
-    velocity = function(X) return 0, v_tip * shape(X) / shape(L) end,
-}
+-- At rest in its place, with the velocity of the body's own first bending mode. The paper has the thin plate's mode, which
+-- differs from it by 0.5 % in frequency and sets off others besides.
+initial = { from = "oracle" }
 
 scheme, evolved = "upwind", "pF"
 stencil, integrator, cfl = "sbp4", "rk4", 0.8
@@ -33,9 +26,10 @@ stencil, integrator, cfl = "sbp4", "rk4", 0.8
 oracle = { name = "cantilever" }
 probes = { { name = "tip", X = {L, 0} } }
 
--- Displacement of the tip over 1 s, four periods, at 1 mm, relative to the plane-strain solution.
+-- Displacement of the tip over 1 s, four periods, at 1 mm, and its order from 2 mm. The stress is singular at the corners
+-- of the clamp, which costs half an order.
 gates = {
-    { when = { stencil = "sbp4", integrator = "rk4", cfl = 0.8, t_end = 1 }, probes = 0.012 },
+    { when = { stencil = "sbp4", integrator = "rk4", cfl = 0.8, t_end = 1 }, probes = 0.008, ["rate probes"] = 1.4 },
 }
 
 view = {
