@@ -3,6 +3,8 @@
 #include <CUnit/Basic.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 int unit_main(const char *suite, const struct unit_test *tests, size_t count)
 {
@@ -10,7 +12,11 @@ int unit_main(const char *suite, const struct unit_test *tests, size_t count)
         return 2;
     }
     CU_pSuite registered = CU_add_suite(suite, NULL, NULL);
+    const char *only = getenv("UNIT_ONLY");
     for (size_t i = 0; i < count; i++) {
+        if (only != NULL && *only != '\0' && strcmp(only, tests[i].name) != 0) {
+            continue;
+        }
         if (registered == NULL || CU_add_test(registered, tests[i].name, tests[i].run) == NULL) {
             (void)fprintf(stderr, "%s: cannot add test %s: %s\n", suite, tests[i].name, CU_get_error_msg());
             return 2;
