@@ -201,6 +201,15 @@ static void oracle(FILE *file, const struct verify_truth *truth)
                       truth->value[i], parameter->unit,
                       truth->told[i] ? "<span class=\"fail\">told in place of the scene's</span>" : "");
     }
+    struct oracle_figure figure[ORACLE_FIGURES];
+    size_t figures = truth->kind->figures != NULL ? truth->kind->figures(truth->oracle, figure) : 0;
+    for (size_t i = 0; i < figures; i++) {
+        (void)fprintf(file, "<tr><td>");
+        escape(file, figure[i].name);
+        (void)fprintf(file, "</td><td>%.10g</td><td>%s</td><td>", figure[i].value, figure[i].unit);
+        escape(file, figure[i].help);
+        (void)fprintf(file, "</td></tr>\n");
+    }
     (void)fprintf(file, "</table><table><tr><th>law</th><th>residual [-]</th><th>bound [-]</th><th></th></tr>\n");
     for (size_t i = 0; i < truth->check_count; i++) {
         const struct oracle_check *line = &truth->check[i];

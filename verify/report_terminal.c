@@ -36,6 +36,12 @@ static void print_truth(FILE *file, const struct verify_truth *truth)
         (void)fprintf(file, "  %-44s %10.2e <= %-8.1e %s\n", line->law, line->residual, line->bound,
                       oracle_law_holds(line) ? "holds" : "FAILS");
     }
+    struct oracle_figure figure[ORACLE_FIGURES];
+    size_t figures = truth->kind->figures != NULL ? truth->kind->figures(truth->oracle, figure) : 0;
+    for (size_t i = 0; i < figures; i++) {
+        (void)fprintf(file, "%s  %-24s %16.10g %-6s %s\n", i == 0 ? "\n" : "", figure[i].name, figure[i].value,
+                      figure[i].unit, figure[i].help);
+    }
     if (!truth->proven) {
         (void)fprintf(file, "\nFAIL: the oracle does not prove itself, so nothing can be verified against it\n");
     }
