@@ -2,6 +2,7 @@
  * What must at least be seen is a change a thousand times as large as the loosest bound of the check; the suite prints
  * what is seen. */
 #include "oracles/oracle.h"
+#include "tests/unit/spoilt_states.h"
 #include "tests/unit/unit.h"
 
 #include <math.h>
@@ -48,60 +49,6 @@ static bool caught(double *loosest)
         *loosest = fmax(*loosest, line[i].bound);
     }
     return !holds;
-}
-
-static void scale(double *x, size_t count, double factor)
-{
-    for (size_t i = 0; i < count; i++) {
-        x[i] *= factor;
-    }
-}
-
-static void scale_gradient(double F[9], double factor)
-{
-    for (int i = 0; i < 9; i++) {
-        double unit = i % 4 == 0 ? 1 : 0;
-        F[i] = unit + (F[i] - unit) * factor;
-    }
-}
-
-static void displacement(const double X[3], double t, double d, struct oracle_state *s)
-{
-    true_state(X, t, s);
-    scale(s->u, 3, 1 + d);
-}
-
-static void velocity(const double X[3], double t, double d, struct oracle_state *s)
-{
-    true_state(X, t, s);
-    scale(s->v, 3, 1 + d);
-    scale(s->p, 3, 1 + d);
-}
-
-static void momentum(const double X[3], double t, double d, struct oracle_state *s)
-{
-    true_state(X, t, s);
-    scale(s->p, 3, 1 + d);
-}
-
-static void gradient(const double X[3], double t, double d, struct oracle_state *s)
-{
-    true_state(X, t, s);
-    scale_gradient(s->F, 1 + d);
-}
-
-static void stress(const double X[3], double t, double d, struct oracle_state *s)
-{
-    true_state(X, t, s);
-    scale(s->P, 9, 1 + d);
-}
-
-static void amplitude(const double X[3], double t, double d, struct oracle_state *s)
-{
-    velocity(X, t, d, s);
-    scale(s->u, 3, 1 + d);
-    scale_gradient(s->F, 1 + d);
-    scale(s->P, 9, 1 + d);
 }
 
 static void place(const double X[3], double t, double d, struct oracle_state *s)
