@@ -22,12 +22,14 @@ static void cut_length(double length, int mode, const struct ritz_mesh *mesh, st
     for (int k = mesh->tip_layers; k >= 1; k--) {
         tip[tips++] = length - pow(mesh->grading, k);
     }
-    for (double at = 1, size = 1; at + 0.6 * size < length / 2;
-         at += size, size = fmin(size * mesh->growth, half_wave)) {
+    double at = 1, size = 1;
+    while (at + 0.6 * size < length / 2) {
         tip[tips++] = length - at;
         if (at > 1) {
             append(x, at, mesh->middle);
         }
+        at += size;
+        size = fmin(size * mesh->growth, half_wave);
     }
     append(x, length / 2, mesh->middle);
     while (tips > 0) {

@@ -14,12 +14,11 @@ static const double STANDS =
 static bool allocate_subspace(const struct ritz_system *s, size_t wanted, struct ritz_subspace *space)
 {
     *space = (struct ritz_subspace){.count = wanted + 1 + GUARD};
-    size_t bytes = space->count * s->unknowns * sizeof(double);
-    space->vector = malloc(bytes);
-    space->massed = malloc(bytes);
-    space->next = malloc(bytes);
-    space->next_massed = malloc(bytes);
-    space->square = malloc(space->count * sizeof(double));
+    space->vector = calloc(space->count, s->unknowns * sizeof(double));
+    space->massed = calloc(space->count, s->unknowns * sizeof(double));
+    space->next = calloc(space->count, s->unknowns * sizeof(double));
+    space->next_massed = calloc(space->count, s->unknowns * sizeof(double));
+    space->square = calloc(space->count, sizeof(double));
     return space->vector != NULL && space->massed != NULL && space->next != NULL && space->next_massed != NULL &&
            space->square != NULL;
 }
@@ -28,7 +27,8 @@ static bool allocate_subspace(const struct ritz_system *s, size_t wanted, struct
 static void start(const struct ritz_system *s, struct ritz_subspace *space)
 {
     for (size_t i = 0; i < space->count * s->unknowns; i++) {
-        double x = 0.6180339887498949 * (double)(i + 1) * (double)(i / s->unknowns + 1);
+        size_t row = i / s->unknowns;
+        double x = 0.6180339887498949 * (double)(i + 1) * (double)(row + 1);
         space->vector[i] = x - floor(x) - 0.5;
     }
     for (size_t k = 0; k < space->count; k++) {

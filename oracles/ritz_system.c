@@ -46,7 +46,7 @@ static void order(struct ritz_system *s)
 bool ritz_system_unknown(const struct ritz_system *s, int a, int component, int j, size_t *index)
 {
     int block = s->block[2 * a + component], at = j - first_function(component);
-    *index = (size_t)(block + at);
+    *index = (size_t)block + (size_t)at;
     return block >= 0 && at >= 0;
 }
 
@@ -166,7 +166,7 @@ void ritz_system_mass(const struct ritz_system *s, const double *z, double *out)
 bool ritz_system_create(struct ritz_system *s, const struct axis *x, const struct axis *y, double lambda)
 {
     *s = (struct ritz_system){.lambda = lambda, .x = x, .y = y};
-    s->unknowns = (size_t)((x->functions - 1) * (2 * y->functions - 1));
+    s->unknowns = ((size_t)x->functions - 1) * (2 * (size_t)y->functions - 1);
     size_t fields = 2 * (size_t)x->functions;
     s->block = malloc(fields * sizeof *s->block);
     s->coupled = malloc(fields * fields * sizeof *s->coupled);

@@ -116,7 +116,7 @@ static double plane_frequency(const struct plane_body *body, int n)
 {
     struct plane_grid grid;
     plane_grid_cut(body, n, &grid);
-    size_t unknowns = (size_t)(2 * (grid.nx - 1) * grid.ny), band = (size_t)(4 * grid.ny + 6);
+    size_t ny = (size_t)grid.ny, unknowns = 2 * ((size_t)grid.nx - 1) * ny, band = 4 * ny + 6;
     gsl_matrix *K = gsl_matrix_calloc(unknowns, band + 1), *M = gsl_matrix_calloc(unknowns, band + 1);
     gsl_vector *x = gsl_vector_alloc(unknowns), *Mx = gsl_vector_alloc(unknowns);
     double square = 0;
