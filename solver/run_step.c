@@ -6,8 +6,6 @@
 #include <string.h>
 #include <time.h>
 
-enum { HISTORY_ROWS = 200 };
-
 double solver_run_clock(void)
 {
     struct timespec at;
@@ -264,12 +262,17 @@ static double next_stop(const struct solver_run *run, double t_end)
     return stop;
 }
 
+/* The row that the present time belongs to. */
+static size_t history_row(const struct solver_run *run)
+{
+    return (size_t)(run->time / run->scene->t_end * run->scene->history);
+}
+
 bool solver_run_to(struct solver_run *run, double t_end, solver_progress *progress, void *context,
                    struct solver_error *error)
 {
     double begun = solver_run_clock();
-    double start = run->time;
-    size_t noted = 0;
+    size_t noted = history_row(run);
     bool ok = true;
     omp_set_num_threads(run->threads);
     if (run->history.count == 0) {
@@ -292,7 +295,7 @@ bool solver_run_to(struct solver_run *run, double t_end, solver_progress *progre
             run->time = stop;
         }
         last = last && stop == t_end;
-        size_t row = (size_t)((run->time - start) / (t_end - start) * HISTORY_ROWS);
+        size_t row = history_row(run);
         if (ok && (last || row > noted)) {
             noted = row;
             ok = solver_run_note(run, error) && check_energy(run, error);

@@ -18,6 +18,7 @@ enum {
     SOLVER_TEXT = 512,
     SOLVER_LEVELS = 16,
     SOLVER_PROBES = 16,
+    SOLVER_SNAPSHOTS = 16,
     SOLVER_GATES = 32,
     SOLVER_NAMED = 16,
     SOLVER_ROWS = 16,
@@ -120,9 +121,12 @@ struct solver_scene {
     char volume_flux[SOLVER_NAME];    /* dissipation of J by the jump of "pressure" or of the whole "stress" */
     char integrator[SOLVER_NAME];
     double cfl;
-    double t_end;                /* [s] */
-    char precision[SOLVER_NAME]; /* "double" */
-    int threads;                 /* 0: as many as there are cores and the work is worth */
+    double t_end; /* [s] */
+    size_t snapshot_count;
+    double snapshot[SOLVER_SNAPSHOTS]; /* [s] increasing, in (0, t_end]: a study's run stops there and is compared */
+    int history;                       /* rows of the time history over t_end */
+    char precision[SOLVER_NAME];       /* "double" */
+    int threads;                       /* 0: as many as there are cores and the work is worth */
 
     enum solver_face_kind face[SOLVER_FACES]; /* X0, X1, Y0, Y1, Z0, Z1 */
     char initial_from[SOLVER_NAME];           /* "formulas", or "oracle": see solver_scene_start_from */

@@ -119,17 +119,23 @@ void scene_overrides_finish(lua_State *L);
 /* Pushes a value spelt as on the command line: number, true, false, list or word. */
 void scene_push_spelling(lua_State *L, const char *key, const char *text);
 
-/* --- readers: scene_values.c (plain keys), scene_lists.c (structured ones) --- */
+/* --- readers: scene_values.c (plain keys), scene_lists.c and scene_measures.c (structured ones) --- */
 
 double scene_read_number(lua_State *L, const char *key, int index, double low, double high, const char *expected);
 /* Copies a string of fewer than `size` bytes. */
 void scene_read_text(lua_State *L, const char *key, int index, char *out, size_t size);
 void scene_read_numbers(lua_State *L, const char *key, int index, double *out, size_t count);
+/* Pushes the table at `path`, nil if absent; true if it is there. */
+bool scene_push_table(lua_State *L, const char *path, const char *expected);
+/* Length of the list on top of the stack; entries under names are refused unless `named_too`. */
+size_t scene_list_length(lua_State *L, const char *key, size_t limit, bool named_too);
 void scene_read_plain(lua_State *L, struct solver_scene *scene);
 void scene_read_faces(lua_State *L, struct solver_scene *scene);
 void scene_read_probes(lua_State *L, struct solver_scene *scene);
 void scene_read_oracle(lua_State *L, struct solver_scene *scene);
 void scene_read_published(lua_State *L, struct solver_scene *scene);
 void scene_read_gates(lua_State *L, struct solver_scene *scene);
+/* After t_end is known. */
+void scene_read_snapshots(lua_State *L, struct solver_scene *scene);
 
 #endif

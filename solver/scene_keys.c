@@ -56,6 +56,10 @@ X("integrator", WORD, AT(integrator), 0, 0, 0, "tvd-rk2 ssp-rk3 rk4 | euler", "r
   "time integrator")                                                                                                   \
 X("cfl", NUMBER, AT(cfl), ABOVE_ZERO, 10, 0, "", "0.8", "number in (0, 10]", "Courant-Friedrichs-Lewy number")         \
 X("t_end", NUMBER, AT(t_end), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [s]", "end of the run")                  \
+X("snapshots", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing numbers in (0, t_end] [s]",          \
+  "times at which a study compares the state with the oracle, besides t_end")                                          \
+X("history", INTEGER, AT(history), 1, 100000, 0, "", "200", "whole number in [1, 100000]",                             \
+  "rows of the time history over t_end, if there are as many steps")                                                   \
 X("precision", WORD, AT(precision), 0, 0, 0, "double | mixed", "double", "one of double", "floating-point precision")  \
 X("threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
   "threads; 0: as many as there are cores and the work is worth")                                                     \

@@ -18,8 +18,7 @@ static void sort_named(struct solver_named *named, size_t count)
     qsort(named, count, sizeof *named, compare_named);
 }
 
-/* Pushes the table at `path`, nil if absent; true if it is there. */
-static bool push_table(lua_State *L, const char *path, const char *expected)
+bool scene_push_table(lua_State *L, const char *path, const char *expected)
 {
     scene_lua_push(L, path);
     if (!lua_isnil(L, -1) && !lua_istable(L, -1))
@@ -27,8 +26,7 @@ static bool push_table(lua_State *L, const char *path, const char *expected)
     return lua_istable(L, -1);
 }
 
-/* Length of the list on top of the stack; entries under names are refused unless `named_too`. */
-static size_t list_length(lua_State *L, const char *key, size_t limit, bool named_too)
+size_t scene_list_length(lua_State *L, const char *key, size_t limit, bool named_too)
 {
     size_t length = lua_rawlen(L, -1);
     if (length > limit)
@@ -121,8 +119,8 @@ void scene_read_faces(lua_State *L, struct solver_scene *scene)
 void scene_read_probes(lua_State *L, struct solver_scene *scene)
 {
     static const char expected[] = "a list of { name = text, X = { ... } }";
-    if (push_table(L, "probes", expected)) {
-        scene->probe_count = list_length(L, "probes", SOLVER_PROBES, false);
+    if (scene_push_table(L, "probes", expected)) {
+        scene->probe_count = scene_list_length(L, "probes", SOLVER_PROBES, false);
         for (size_t i = 0; i < scene->probe_count; i++) {
             struct solver_probe *probe = &scene->probe[i];
             char key[32], part[48];
@@ -195,7 +193,7 @@ static void read_told(lua_State *L, struct solver_scene *scene, const char *pref
 
 void scene_read_oracle(lua_State *L, struct solver_scene *scene)
 {
-    if (push_table(L, "oracle", "{ name = text }")) {
+    if (scene_push_table(L, "oracle", "{ name = text }")) {
         lua_getfield(L, -1, "name");
         scene_read_text(L, "oracle.name", -1, scene->oracle, sizeof scene->oracle);
         lua_pop(L, 1);
@@ -209,8 +207,8 @@ void scene_read_oracle(lua_State *L, struct solver_scene *scene)
 
 void scene_read_published(lua_State *L, struct solver_scene *scene)
 {
-    if (push_table(L, "published", "{ source = text, { n = ..., NAME = error, ... }, ... }")) {
-        scene->published_count = list_length(L, "published", SOLVER_ROWS, true);
+    if (scene_push_table(L, "published", "{ source = text, { n = ..., NAME = error, ... }, ... }")) {
+        scene->published_count = scene_list_length(L, "published", SOLVER_ROWS, true);
         for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1))
             if (lua_type(L, -2) == LUA_TSTRING && strcmp(lua_tostring(L, -2), "source") != 0)
                 scene_refuse(L, "published.%.60s: unknown key; expected source and rows", lua_tostring(L, -2));
@@ -304,8 +302,8 @@ static void read_conditions(lua_State *L, const struct solver_scene *scene, cons
 
 void scene_read_gates(lua_State *L, struct solver_scene *scene)
 {
-    if (push_table(L, "gates", "a list of { when = { KEY = value, ... }, NAME = bound, ... }")) {
-        scene->gate_count = list_length(L, "gates", SOLVER_GATES, false);
+    if (scene_push_table(L, "gates", "a list of { when = { KEY = value, ... }, NAME = bound, ... }")) {
+        scene->gate_count = scene_list_length(L, "gates", SOLVER_GATES, false);
         for (size_t i = 0; i < scene->gate_count; i++) {
             struct solver_gate_rule *gate = &scene->gate[i];
             char key[32], when[48];
