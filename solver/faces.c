@@ -24,14 +24,16 @@ static unsigned constrained_axes(enum solver_face_kind kind, unsigned normal, un
     return 0;
 }
 
-bool solver_faces_create(const struct solver_scene *scene, const struct solver_stencil *stencil,
-                         const struct solver_cloud *cloud, struct solver_faces *faces, struct solver_error *error)
+bool solver_faces_create(const struct solver_body *body, const struct solver_geometry *geometry,
+                         struct solver_faces *faces, struct solver_error *error)
 {
+    const struct solver_scene *scene = body->scene;
+    const struct solver_cloud *cloud = body->cloud;
     unsigned dim = (unsigned)cloud->dim;
     *faces = (struct solver_faces){.dim = cloud->dim, .body_force = solver_scene_has(scene, SOLVER_BODY_FORCE)};
-    if (!solver_alloc((void **)&faces->constraint, stencil->face_point_count, sizeof *faces->constraint, "constraints",
+    if (!solver_alloc((void **)&faces->constraint, geometry->face_point_count, sizeof *faces->constraint, "constraints",
                       error) ||
-        !solver_alloc((void **)&faces->load, stencil->face_point_count, sizeof *faces->load, "loads", error)) {
+        !solver_alloc((void **)&faces->load, geometry->face_point_count, sizeof *faces->load, "loads", error)) {
         return false;
     }
     for (size_t a = 0; a < cloud->count; a++) {
@@ -61,9 +63,9 @@ bool solver_faces_create(const struct solver_scene *scene, const struct solver_s
             constraint->after[axis * dim + axis] = (lasting >> axis & 1U) != 0 ? 0.0 : 1.0;
         }
     }
-    for (size_t i = 0; i < stencil->face_point_count; i++) {
-        if (scene->face[stencil->face_point[i].face] == SOLVER_TRACTION) {
-            faces->load[faces->load_count++] = stencil->face_point[i];
+    for (size_t i = 0; i < geometry->face_point_count; i++) {
+        if (scene->face[geometry->face_point[i].face] == SOLVER_TRACTION) {
+            faces->load[faces->load_count++] = geometry->face_point[i];
         }
     }
     return true;
@@ -83,9 +85,8 @@ static void place(const struct solver_cloud *cloud, size_t a, double X[3])
     }
 }
 
-bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_scene *scene,
-                            const struct solver_cloud *cloud, double t, size_t lanes, double *v,
-                            struct solver_error *error)
+bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t, size_t lanes,
+                            double *v, struct solver_error *error)
 {
     size_t dim = (size_t)faces->dim;
     for (size_t c = 0; c < faces->constraint_count; c++) {
@@ -96,9 +97,9 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
         const double *keep = t <= constraint->until ? constraint->keep : constraint->after;
         if (constraint->motion >= 0 && t <= constraint->until) {
             double X[3];
-            place(cloud, constraint->particle, X);
-            if (!solver_scene_eval(scene, (enum solver_formula)(SOLVER_FACE_X0 + constraint->motion), X, t, velocity,
-                                   dim, error)) {
+            place(body->cloud, constraint->particle, X);
+            if (!solver_scene_eval(body->scene, (enum solver_formula)(SOLVER_FACE_X0 + constraint->motion), X, t,
+                                   velocity, dim, error)) {
                 return false;
             }
         }
@@ -114,11 +115,15 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
     return true;
 }
 
-bool solver_faces_load(const struct solver_faces *faces, const struct solver_scene *scene,
-                       const struct solver_cloud *cloud, const struct solver_stencil *stencil,
-                       const struct solver_material_constants *constants, size_t stride, double t, size_t lanes,
-                       const double *v, double *v_rate, double *power, struct solver_error *error)
+bool solver_faces_load(const struct solver_faces *faces, const struct solver_body *body,
+                       const struct solver_geometry *geometry, double t, size_t lanes, const double *v, double *v_rate,
+                       double *power, struct solver_error *error)
 {
+    const struct solver_scene *scene = body->scene;
+    const struct solver_cloud *cloud = body->cloud;
+    const struct solver_material_constants *constants = body->constants;
+    const double *V = geometry->V;
+    size_t stride = body->stride;
     size_t dim = (size_t)faces->dim;
     double X[3];
     double value[3];
@@ -137,7 +142,7 @@ bool solver_faces_load(const struct solver_faces *faces, const struct solver_sce
         }
         area = sqrt(area);
         for (size_t axis = 0; axis < dim; axis++) {
-            v_rate[a * lanes + axis] += area * value[axis] / (stencil->V[a] * constants[a * stride].rho);
+            v_rate[a * lanes + axis] += area * value[axis] / (V[a] * constants[a * stride].rho);
             *power += area * value[axis] * v[a * lanes + axis];
         }
     }
@@ -148,7 +153,7 @@ bool solver_faces_load(const struct solver_faces *faces, const struct solver_sce
         }
         for (size_t axis = 0; axis < dim; axis++) {
             v_rate[a * lanes + axis] += value[axis] / constants[a * stride].rho;
-            *power += stencil->V[a] * value[axis] * v[a * lanes + axis];
+            *power += V[a] * value[axis] * v[a * lanes + axis];
         }
     }
     return true;

@@ -2,9 +2,7 @@
 #ifndef SOLVER_FACES_H
 #define SOLVER_FACES_H
 
-#include "solver/material.h"
-#include "solver/scene.h"
-#include "solver/stencil.h"
+#include "solver/scheme.h"
 
 /* A particle whose velocity is not free. v <- keep v + prescribed v(X, t). A particle on several faces takes the
  * constraints of all of them. */
@@ -25,19 +23,18 @@ struct solver_faces {
     bool body_force;
 };
 
-bool solver_faces_create(const struct solver_scene *scene, const struct solver_stencil *stencil,
-                         const struct solver_cloud *cloud, struct solver_faces *faces, struct solver_error *error);
+/* `geometry` is that of the body's scheme, here and below. */
+bool solver_faces_create(const struct solver_body *body, const struct solver_geometry *geometry,
+                         struct solver_faces *faces, struct solver_error *error);
 void solver_faces_free(struct solver_faces *faces);
 
 /* Enforces the constraints on v, padded vectors with the given number of lanes, at time t. */
-bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_scene *scene,
-                            const struct solver_cloud *cloud, double t, size_t lanes, double *v,
-                            struct solver_error *error);
-/* Adds tractions and body forces at time t to v_rate, of particles with the constants' densities (stride as in
- * material.h); *power [W] becomes their power at velocities v. */
-bool solver_faces_load(const struct solver_faces *faces, const struct solver_scene *scene,
-                       const struct solver_cloud *cloud, const struct solver_stencil *stencil,
-                       const struct solver_material_constants *constants, size_t stride, double t, size_t lanes,
-                       const double *v, double *v_rate, double *power, struct solver_error *error);
+bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t, size_t lanes,
+                            double *v, struct solver_error *error);
+/* Adds tractions and body forces at time t, per unit of reference area and volume, to v_rate; *power [W] becomes their
+ * power at velocities v. */
+bool solver_faces_load(const struct solver_faces *faces, const struct solver_body *body,
+                       const struct solver_geometry *geometry, double t, size_t lanes, const double *v, double *v_rate,
+                       double *power, struct solver_error *error);
 
 #endif

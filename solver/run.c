@@ -21,20 +21,6 @@ static int choose_threads(int wanted, int dim, size_t particles)
     return worth < 1 ? 1 : worth < (size_t)cores ? (int)worth : cores;
 }
 
-static void choose_terms(struct solver_run *run)
-{
-    const struct solver_scene *scene = run->scene;
-    struct solver_upwind *work = &run->work;
-    const struct solver_upwind_loops *loops[] = {&solver_upwind_1d, &solver_upwind_2d, &solver_upwind_3d};
-    run->loops = loops[scene->dim - 1];
-    work->material = solver_material_find(scene->material_model)->in[scene->dim - 1];
-    work->evolves_J = scene->evolved != SOLVER_PF;
-    work->evolves_H = scene->evolved == SOLVER_PFHJ;
-    work->frozen = work->material->linear;
-    work->whole_jump = strcmp(scene->volume_flux, "stress") == 0;
-    work->reconstruct = strcmp(scene->reconstruction, "none") != 0;
-}
-
 /* Constants of one particle of a composite body. */
 static bool constants_at(const struct solver_run *run, size_t a, struct solver_material_constants *constants,
                          struct solver_error *error)
@@ -70,60 +56,27 @@ static bool set_constants(struct solver_run *run, struct solver_error *error)
             return false;
         }
     }
-    run->work.constants = run->constants;
-    run->work.stride = composite ? 1 : 0;
+    run->body = (struct solver_body){
+        .scene = scene, .cloud = run->cloud, .constants = run->constants, .stride = composite ? 1 : 0};
     return true;
 }
 
-static void bind_stencil(struct solver_run *run)
-{
-    const struct solver_stencil *stencil = run->stencil;
-    run->work.row = stencil->graph.row;
-    run->work.neighbour = stencil->graph.neighbour;
-    run->work.pair = stencil->pair;
-    run->work.transposed = stencil->transposed;
-    run->work.row_sum = stencil->row_sum;
-    run->work.least_squares = stencil->least_squares;
-    run->work.V = stencil->V;
-}
-
-/* F = sum_b (x_b - x_a) (x) C_ab / 2V_a, row by row. */
-static void discrete_F(const struct solver_run *run, size_t a, double *F)
-{
-    const struct solver_stencil *stencil = run->stencil;
-    size_t dim = (size_t)stencil->dim;
-    size_t lanes = run->loops->lanes;
-    memset(F, 0, dim * dim * sizeof *F);
-    for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
-        const double *C = solver_stencil_C(stencil, ab);
-        size_t b = stencil->graph.neighbour[ab];
-        for (size_t i = 0; i < dim; i++) {
-            double d = run->work.x[b * lanes + i] - run->work.x[a * lanes + i];
-            for (size_t I = 0; I < dim; I++) {
-                F[i * dim + I] += 0.5 * d * C[I] / stencil->V[a];
-            }
-        }
-    }
-}
-
-static bool initial_state(struct solver_run *run, struct solver_error *error)
+/* Where the particles are and how they move at the start, as the scene says. */
+static bool start_motion(struct solver_run *run, struct solver_error *error)
 {
     const struct solver_scene *scene = run->scene;
-    struct solver_upwind *work = &run->work;
     size_t dim = (size_t)scene->dim;
-    size_t lanes = run->loops->lanes;
-    size_t count = run->cloud->count;
-    for (size_t a = 0; a < count; a++) {
+    size_t lanes = run->state.lanes;
+    for (size_t a = 0; a < run->cloud->count; a++) {
         double X[3] = {0};
         double value[3] = {0};
         memcpy(X, run->cloud->X + a * dim, dim * sizeof *X);
-        memcpy(run->state.X + a * lanes, X, dim * sizeof *X);
         if (solver_scene_has(scene, SOLVER_INITIAL_DISPLACEMENT) &&
             !solver_scene_eval(scene, SOLVER_INITIAL_DISPLACEMENT, X, 0.0, value, dim, error)) {
             return false;
         }
         for (size_t i = 0; i < dim; i++) {
-            work->x[a * lanes + i] = X[i] + value[i];
+            run->state.x[a * lanes + i] = X[i] + value[i];
             value[i] = 0.0;
         }
         if (solver_scene_has(scene, SOLVER_INITIAL_VELOCITY) &&
@@ -131,28 +84,21 @@ static bool initial_state(struct solver_run *run, struct solver_error *error)
             return false;
         }
         for (size_t i = 0; i < dim; i++) {
-            work->v[a * lanes + i] = value[i];
+            run->state.v[a * lanes + i] = value[i];
         }
     }
-    for (size_t a = 0; a < count; a++) {
-        double F[9];
-        if (!solver_scene_has(scene, SOLVER_INITIAL_F)) {
-            discrete_F(run, a, F);
-        } else {
-            double X[3] = {0};
-            memcpy(X, run->cloud->X + a * dim, dim * sizeof *X);
-            if (!solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {
-                return false;
-            }
-        }
-        for (size_t i = 0; i < dim; i++) {
-            for (size_t I = 0; I < dim; I++) {
-                work->F[(a * dim + I) * lanes + i] = F[i * dim + I];
-            }
-        }
+    return true;
+}
+
+static bool initial_state(struct solver_run *run, struct solver_error *error)
+{
+    struct solver_state *state = &run->state;
+    if (!start_motion(run, error) || !run->scheme->start(run->system, error) ||
+        !solver_faces_constrain(&run->faces, &run->body, 0.0, state->lanes, state->v, error)) {
+        return false;
     }
-    run->loops->measures(work->frozen, 0, count, work->F, work->H, work->J);
-    return solver_faces_constrain(&run->faces, scene, run->cloud, 0.0, lanes, work->v, error);
+    solver_run_refresh(run);
+    return solver_run_check(run, error);
 }
 
 static void find_probes(struct solver_run *run)
@@ -174,43 +120,44 @@ static void find_probes(struct solver_run *run)
     }
 }
 
-static bool build(struct solver_run *run, struct solver_error *error)
+static bool build_body(struct solver_run *run, struct solver_error *error)
 {
     const struct solver_scene *scene = run->scene;
-    bool least_squares = strcmp(scene->reconstruction, "least-squares") == 0;
     struct solver_box box = {.dim = scene->dim,
                              .spacing = scene->reference_length / scene->n,
                              .perturb = scene->perturb,
                              .seed = scene->seed};
     memcpy(box.lower, scene->lower, sizeof box.lower);
     memcpy(box.upper, scene->upper, sizeof box.upper);
+    return solver_cloud_box(&box, &run->cloud, error) && set_constants(run, error);
+}
+
+static bool build(struct solver_run *run, struct solver_error *error)
+{
+    const struct solver_scene *scene = run->scene;
+    struct solver_field table[SOLVER_STATE_FIELDS];
     run->integrator = solver_integrator_find(scene->integrator);
-    const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
-    if (run->integrator == NULL || builder == NULL || solver_material_find(scene->material_model) == NULL) {
-        return solver_fail(error, SOLVER_BAD_INPUT, "%s: no integrator \"%s\", stencil \"%s\" or material \"%s\"",
-                           scene->path, scene->integrator, scene->stencil, scene->material_model);
+    run->scheme = solver_scheme_find(scene->scheme);
+    if (run->integrator == NULL || run->scheme == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "%s: no integrator \"%s\" or scheme \"%s\"", scene->path,
+                           scene->integrator, scene->scheme);
     }
-    choose_terms(run);
-    if (!solver_cloud_box(&box, &run->cloud, error) || !set_constants(run, error)) {
+    if (!build_body(run, error)) {
         return false;
     }
     run->threads = choose_threads(scene->threads, scene->dim, run->cloud->count);
     omp_set_num_threads(run->threads);
-    if (!solver_stencil_create(builder, run->cloud, scene->support, &run->stencil, error) ||
-        (least_squares && !solver_stencil_add_least_squares(run->stencil, run->cloud, error)) ||
-        !solver_faces_create(scene, run->stencil, run->cloud, &run->faces, error) ||
-        !solver_state_create(&run->state, run->cloud->count, scene->dim, run->integrator, least_squares, &run->work,
-                             error)) {
+    if (!run->scheme->create(&run->body, &run->system, error)) {
         return false;
     }
-    bind_stencil(run);
-    run->residuals = solver_stencil_check(run->stencil, run->cloud);
+    struct solver_geometry geometry = run->scheme->geometry(run->system);
+    size_t rows = run->scheme->fields(run->system, table);
+    if (!solver_faces_create(&run->body, &geometry, &run->faces, error) ||
+        !solver_state_create(&run->state, run->cloud->count, scene->dim, run->integrator, table, rows, error)) {
+        return false;
+    }
     find_probes(run);
-    if (!initial_state(run, error)) {
-        return false;
-    }
-    solver_run_stresses(run);
-    return solver_run_check(run, error);
+    return initial_state(run, error);
 }
 
 bool solver_run_create(const struct solver_scene *scene, struct solver_run **out, struct solver_error *error)
@@ -242,37 +189,40 @@ void solver_run_free(struct solver_run *run)
         return;
     }
     solver_run_output_free(run);
-    free(run->constants);
     solver_state_free(&run->state);
     solver_faces_free(&run->faces);
-    solver_stencil_free(run->stencil);
+    if (run->system != NULL) {
+        run->scheme->destroy(run->system);
+    }
+    free(run->constants);
     solver_cloud_free(run->cloud);
     free(run);
 }
 
 struct solver_facts solver_run_facts(const struct solver_run *run)
 {
+    struct solver_geometry geometry = run->scheme->geometry(run->system);
     double count = (double)run->cloud->count;
+    double passes = geometry.passes;
     double state = solver_state_bytes_per_particle(&run->state, true);
     double fields = solver_state_bytes_per_particle(&run->state, false);
     double evolved = 8.0 * (double)run->state.evolved / count;
-    double composite = (double)(run->work.stride * sizeof *run->constants);
-    double stencil = (double)solver_stencil_bytes(run->stencil) / count;
-    /* per stage: the stencil twice (gradients, rates); fields read by both, rates written; in the update state, start
-     * and rate read, state and derived fields written. The first stage writes the start instead of reading it. */
-    double stage = 2.0 * stencil + 3.0 * fields + 4.0 * evolved;
-    double closure = fmax(run->residuals.closure, run->residuals.linear);
+    double composite = (double)(run->body.stride * sizeof *run->constants);
+    double bytes = geometry.bytes / count;
+    /* per stage: the geometry in each pass; fields read by each, rates written; in the update state, start and rate
+     * read, state and other fields written. The first stage writes the start instead of reading it. */
+    double stage = passes * bytes + (passes + 1.0) * fields + 4.0 * evolved;
     return (struct solver_facts){
         .particles = run->cloud->count,
-        .pairs = run->stencil->pairs,
+        .pairs = geometry.pairs,
         .steps = run->step,
         .spacing = run->cloud->spacing,
         .setup_seconds = run->setup_seconds,
         .seconds = run->seconds,
-        .bytes_per_particle = state + stencil + composite,
+        .bytes_per_particle = state + bytes + composite,
         .state_bytes = fields,
         .step_traffic = run->integrator->stages * stage,
-        .stencil_residual = closure,
+        .stencil_residual = geometry.residual,
         .threads = run->threads,
     };
 }

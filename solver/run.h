@@ -11,22 +11,24 @@
 struct solver_run;
 
 /* What the body is doing now. Arrays belong to the run and hold until its next call. [count] particles; tensors
- * row by row; F, H, P are the in-plane [dim][dim] blocks. */
+ * row by row; F, H, P and sigma are the in-plane [dim][dim] blocks. */
 struct solver_output {
     const struct solver_cloud *cloud;
     double time; /* [s] */
     size_t step;
-    const double *V;         /* [count] stencil volumes: the weights of every norm and sum */
-    const double *u;         /* [count][dim] displacement [m] */
-    const double *v;         /* [count][dim] velocity [m/s] */
-    const double *p;         /* [count][dim] linear momentum per unit reference volume [kg/(m^2 s)] */
-    const double *F;         /* [count][dim*dim] deformation gradient */
-    const double *H;         /* [count][dim*dim] cofactor (evolved, or that of F) */
-    const double *J;         /* [count] Jacobian (evolved, or that of F) */
-    const double *P;         /* [count][dim*dim] first Piola-Kirchhoff stress [Pa] */
-    const double *P_normal;  /* [count] its component out of the plane or line [Pa]; NULL in 3D */
-    const double *pressure;  /* [count] mean Cauchy stress tr(sigma)/3 [Pa], positive in tension as in the papers */
-    const double *von_mises; /* [count] von Mises equivalent of the Cauchy stress [Pa] */
+    const double *V;        /* [count] stencil volumes: the weights of every norm and sum */
+    const double *u;        /* [count][dim] displacement [m] */
+    const double *v;        /* [count][dim] velocity [m/s] */
+    const double *p;        /* [count][dim] linear momentum per unit reference volume [kg/(m^2 s)] */
+    const double *F;        /* [count][dim*dim] deformation gradient; NULL if the scheme has none, H and P as well */
+    const double *H;        /* [count][dim*dim] cofactor (evolved, or that of F) */
+    const double *J;        /* [count] Jacobian (evolved, or that of F); without F, rho0 / rho */
+    const double *P;        /* [count][dim*dim] first Piola-Kirchhoff stress [Pa] */
+    const double *P_normal; /* [count] its component out of the plane or line [Pa]; NULL in 3D too */
+    const double *sigma;    /* [count][dim*dim] Cauchy stress [Pa] */
+    const double *sigma_normal; /* [count] its component out of the plane or line [Pa]; NULL in 3D */
+    const double *pressure;     /* [count] mean Cauchy stress tr(sigma)/3 [Pa], positive in tension as in the papers */
+    const double *von_mises;    /* [count] von Mises equivalent of the Cauchy stress [Pa] */
 };
 
 /* Conserved quantities at one time; momenta and energies per unit thickness in 2D, per unit area in 1D. */
@@ -59,7 +61,7 @@ struct solver_facts {
     double state_bytes;        /* fields of the scheme alone, per particle */
     double step_traffic;       /* bytes that one particle's step moves if every array streams once per pass and
                                   neighbours are found in cache */
-    double stencil_residual;   /* largest relative violation of closure and linear exactness */
+    double stencil_residual;   /* largest relative violation of closure and linear exactness; NAN: no stencil */
     int threads;
 };
 

@@ -4,23 +4,18 @@
 
 #include "solver/faces.h"
 #include "solver/run.h"
+#include "solver/scheme.h"
 #include "solver/state.h"
-#include "solver/stencil.h"
-
-/* Particles per piece of work. A piece's result does not depend on who does it, and pieces are combined in order, so
- * results are the same for any number of threads. */
-enum { SOLVER_PIECE = 256 };
 
 struct solver_run {
     const struct solver_scene *scene;
     struct solver_cloud *cloud;
-    struct solver_stencil *stencil;
-    struct solver_stencil_residuals residuals;
-    struct solver_faces faces;
-    const struct solver_integrator *integrator;
-    const struct solver_upwind_loops *loops;
-    struct solver_upwind work;
     struct solver_material_constants *constants; /* of the body, or of each particle of a composite one */
+    struct solver_body body;                     /* the three above, for the scheme */
+    const struct solver_scheme *scheme;
+    void *system; /* the scheme's; NULL until it is made */
+    const struct solver_integrator *integrator;
+    struct solver_faces faces;
     struct solver_state state;
     double time, external; /* [s], [J] */
     size_t step;
@@ -34,8 +29,13 @@ struct solver_run {
 
 /* Monotonic clock [s]. */
 double solver_run_clock(void);
-/* Stresses of the present state. */
-void solver_run_stresses(struct solver_run *run);
+/* What follows from a changed state. */
+void solver_run_refresh(struct solver_run *run);
+/* The linear momentum per unit reference volume over the velocity: the density rho0 [kg/m^3] of particle a. */
+static inline double solver_run_density(const struct solver_run *run, size_t a)
+{
+    return run->constants[a * run->body.stride].rho;
+}
 /* Fails with SOLVER_BROKE_DOWN if any particle's state is broken. */
 bool solver_run_check(struct solver_run *run, struct solver_error *error);
 /* Appends the present state to the history. */

@@ -6,156 +6,143 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where each array of solver_output lies within the run's output block, in doubles per particle. */
-struct layout {
-    size_t u, v, p, F, H, J, P, P_normal, pressure, von_mises, width;
+/* The arrays of solver_output within the run's output block; NULL: there is none. */
+struct arrays {
+    double *u, *v, *p, *F, *H, *J, *P, *P_normal, *sigma, *sigma_normal, *pressure, *von_mises;
 };
 
-static struct layout lay_out(size_t dim)
-{
-    struct layout at = {.u = 0, .v = dim, .p = 2 * dim, .F = 3 * dim};
-    at.H = at.F + dim * dim;
-    at.P = at.H + dim * dim;
-    at.J = at.P + dim * dim;
-    at.P_normal = at.J + 1;
-    at.pressure = at.P_normal + (dim < 3 ? 1 : 0);
-    at.von_mises = at.pressure + 1;
-    at.width = at.von_mises + 1;
-    return at;
-}
-
-/* A padded tensor of particle a, row by row. */
-static void rows_of(const struct solver_run *run, const double *field, size_t a, double *rows)
+/* Returns the doubles that the block takes. */
+static size_t lay_out(const struct solver_run *run, struct arrays *at)
 {
     size_t dim = (size_t)run->cloud->dim;
-    size_t lanes = run->loops->lanes;
-    for (size_t i = 0; i < dim; i++) {
-        for (size_t I = 0; I < dim; I++) {
-            rows[i * dim + I] = field[(a * dim + I) * lanes + i];
-        }
+    size_t normal = dim < 3 ? 1 : 0;
+    bool deformation = run->scheme->deformation;
+    const struct {
+        double **array;
+        size_t width;
+    } rows[] = {
+        {&at->u, dim},
+        {&at->v, dim},
+        {&at->p, dim},
+        {&at->F, deformation ? dim * dim : 0},
+        {&at->H, deformation ? dim * dim : 0},
+        {&at->P, deformation ? dim * dim : 0},
+        {&at->P_normal, deformation ? normal : 0},
+        {&at->sigma, dim * dim},
+        {&at->sigma_normal, normal},
+        {&at->J, 1},
+        {&at->pressure, 1},
+        {&at->von_mises, 1},
+    };
+    size_t size = 0;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        *rows[i].array = run->output != NULL && rows[i].width > 0 ? run->output + size : NULL;
+        size += run->cloud->count * rows[i].width;
     }
+    return size;
 }
 
-/* H and J of particle a: evolved, or those of F. */
-static void measures_of(const struct solver_run *run, size_t a, double *H, double *J)
+/* Mean and von Mises equivalent of a Cauchy stress [3][3]. */
+static void invariants(const double *sigma, double *mean, double *von_mises)
 {
-    const struct solver_upwind *work = &run->work;
-    size_t tensor = (size_t)run->cloud->dim * run->loops->lanes;
-    double padded[12] __attribute__((aligned(64)));
-    double F[12] __attribute__((aligned(64)));
-    double jacobian[1];
-    memcpy(F, work->F + a * tensor, tensor * sizeof *F);
-    run->loops->measures(work->frozen, 0, 1, F, padded, jacobian);
-    *J = work->J != NULL ? work->J[a] : jacobian[0];
-    if (work->H != NULL) {
-        rows_of(run, work->H, a, H);
-    } else {
-        rows_of(run, padded, 0, H);
-    }
-}
-
-/* Mean and von Mises equivalent of the Cauchy stress sigma = P F^T / J; with linear kinematics sigma = P. */
-static void cauchy(const struct solver_run *run, const double *F, double J, const double *P, double P_normal,
-                   double *mean, double *von_mises)
-{
-    size_t dim = (size_t)run->cloud->dim;
-    double sigma[3][3] = {{0}};
-    for (size_t i = 0; i < dim; i++) {
-        for (size_t j = 0; j < dim; j++) {
-            for (size_t I = 0; I < dim; I++) {
-                sigma[i][j] += run->work.frozen ? P[i * dim + j] / (double)dim : P[i * dim + I] * F[j * dim + I] / J;
-            }
-        }
-    }
-    for (size_t i = dim; i < 3; i++) {
-        sigma[i][i] = P_normal / (run->work.frozen ? 1.0 : J);
-    }
-    *mean = (sigma[0][0] + sigma[1][1] + sigma[2][2]) / 3.0;
     double square = 0.0;
+    *mean = (sigma[0] + sigma[4] + sigma[8]) / 3.0;
     for (size_t i = 0; i < 3; i++) {
         for (size_t j = 0; j < 3; j++) {
-            double deviator = 0.5 * (sigma[i][j] + sigma[j][i]) - (i == j ? *mean : 0.0);
+            double deviator = 0.5 * (sigma[3 * i + j] + sigma[3 * j + i]) - (i == j ? *mean : 0.0);
             square += deviator * deviator;
         }
     }
     *von_mises = sqrt(1.5 * square);
 }
 
-bool solver_run_output(struct solver_run *run, struct solver_output *output, struct solver_error *error)
+static void write_motion(const struct solver_run *run, const struct arrays *at, size_t a)
+{
+    const struct solver_state *state = &run->state;
+    size_t dim = (size_t)run->cloud->dim;
+    for (size_t i = 0; i < dim; i++) {
+        double velocity = state->v[a * state->lanes + i];
+        at->u[a * dim + i] = state->x[a * state->lanes + i] - run->cloud->X[a * dim + i];
+        at->v[a * dim + i] = velocity;
+        at->p[a * dim + i] = solver_run_density(run, a) * velocity;
+    }
+}
+
+static void write_point(const struct solver_run *run, const struct arrays *at, size_t a)
 {
     size_t dim = (size_t)run->cloud->dim;
-    size_t count = run->cloud->count;
-    size_t lanes = run->loops->lanes;
-    const struct solver_upwind *work = &run->work;
-    struct layout at = lay_out(dim);
-    if (run->output == NULL &&
-        !solver_alloc((void **)&run->output, count * at.width, sizeof(double), "output fields", error)) {
-        return false;
+    struct solver_point point;
+    run->scheme->look(run->system, a, &point);
+    at->J[a] = point.J;
+    invariants(point.sigma, &at->pressure[a], &at->von_mises[a]);
+    for (size_t i = 0; i < dim; i++) {
+        memcpy(at->sigma + (a * dim + i) * dim, point.sigma + 3 * i, dim * sizeof(double));
     }
-    double *out = run->output;
-    for (size_t a = 0; a < count; a++) {
-        double *F = out + count * at.F + a * dim * dim;
-        double *P = out + count * at.P + a * dim * dim;
-        for (size_t i = 0; i < dim; i++) {
-            double velocity = work->v[a * lanes + i];
-            out[count * at.u + a * dim + i] = work->x[a * lanes + i] - run->cloud->X[a * dim + i];
-            out[count * at.v + a * dim + i] = velocity;
-            out[count * at.p + a * dim + i] = work->constants[a * work->stride].rho * velocity;
+    if (at->sigma_normal != NULL) {
+        at->sigma_normal[a] = point.sigma[8];
+    }
+    if (at->F != NULL) {
+        memcpy(at->F + a * dim * dim, point.F, dim * dim * sizeof(double));
+        memcpy(at->H + a * dim * dim, point.H, dim * dim * sizeof(double));
+        memcpy(at->P + a * dim * dim, point.P, dim * dim * sizeof(double));
+    }
+    if (at->P_normal != NULL) {
+        at->P_normal[a] = point.P_normal;
+    }
+}
+
+bool solver_run_output(struct solver_run *run, struct solver_output *output, struct solver_error *error)
+{
+    struct arrays at;
+    size_t size = lay_out(run, &at);
+    if (run->output == NULL) {
+        if (!solver_alloc((void **)&run->output, size, sizeof(double), "output fields", error)) {
+            return false;
         }
-        rows_of(run, work->F, a, F);
-        rows_of(run, work->P, a, P);
-        measures_of(run, a, out + count * at.H + a * dim * dim, out + count * at.J + a);
-        double J = out[count * at.J + a];
-        double P_normal = 0.0;
-        if (dim < 3) {
-            P_normal = work->material->stress_normal(work->constants + a * work->stride, F, J);
-            out[count * at.P_normal + a] = P_normal;
-        }
-        cauchy(run, F, J, P, P_normal, out + count * at.pressure + a, out + count * at.von_mises + a);
+        (void)lay_out(run, &at);
+    }
+    for (size_t a = 0; a < run->cloud->count; a++) {
+        write_motion(run, &at, a);
+        write_point(run, &at, a);
     }
     *output = (struct solver_output){.cloud = run->cloud,
                                      .time = run->time,
                                      .step = run->step,
-                                     .V = run->stencil->V,
-                                     .u = out + count * at.u,
-                                     .v = out + count * at.v,
-                                     .p = out + count * at.p,
-                                     .F = out + count * at.F,
-                                     .H = out + count * at.H,
-                                     .J = out + count * at.J,
-                                     .P = out + count * at.P,
-                                     .P_normal = dim < 3 ? out + count * at.P_normal : NULL,
-                                     .pressure = out + count * at.pressure,
-                                     .von_mises = out + count * at.von_mises};
+                                     .V = run->scheme->geometry(run->system).V,
+                                     .u = at.u,
+                                     .v = at.v,
+                                     .p = at.p,
+                                     .F = at.F,
+                                     .H = at.H,
+                                     .J = at.J,
+                                     .P = at.P,
+                                     .P_normal = at.P_normal,
+                                     .sigma = at.sigma,
+                                     .sigma_normal = at.sigma_normal,
+                                     .pressure = at.pressure,
+                                     .von_mises = at.von_mises};
     return true;
 }
 
-static void add_particle(const struct solver_run *run, size_t a, struct solver_totals *totals)
+static void add_particle(const struct solver_run *run, size_t a, double V, struct solver_totals *totals)
 {
-    const struct solver_upwind *work = &run->work;
+    const struct solver_state *state = &run->state;
     size_t dim = (size_t)run->cloud->dim;
-    size_t lanes = run->loops->lanes;
-    const struct solver_material_constants *of_a = work->constants + a * work->stride;
-    double V = run->stencil->V[a];
+    double rho = solver_run_density(run, a);
     double p[3] = {0};
     double x[3] = {0};
-    double F[9];
-    double H[9];
-    double J;
     for (size_t i = 0; i < dim; i++) {
-        p[i] = of_a->rho * work->v[a * lanes + i];
+        p[i] = rho * state->v[a * state->lanes + i];
     }
-    memcpy(x, work->x + a * lanes, dim * sizeof *x);
-    rows_of(run, work->F, a, F);
-    measures_of(run, a, H, &J);
+    memcpy(x, state->x + a * state->lanes, dim * sizeof *x);
     for (size_t i = 0; i < 3; i++) {
         size_t j = (i + 1) % 3;
         size_t k = (i + 2) % 3;
         totals->linear[i] += V * p[i];
         totals->angular[i] += V * (x[j] * p[k] - x[k] * p[j]);
-        totals->kinetic += 0.5 * V * p[i] * p[i] / of_a->rho;
+        totals->kinetic += 0.5 * V * p[i] * p[i] / rho;
     }
-    totals->strain += V * work->material->energy(of_a, F, H, J);
+    totals->strain += V * run->scheme->energy(run->system, a);
 }
 
 static bool make_room(struct solver_run *run, struct solver_error *error)
@@ -203,18 +190,19 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
         return false;
     }
     size_t dim = (size_t)run->cloud->dim;
-    size_t lanes = run->loops->lanes;
+    size_t lanes = run->state.lanes;
+    const double *V = run->scheme->geometry(run->system).V;
     struct solver_totals totals = {.time = run->time, .external = run->external};
     for (size_t a = 0; a < run->cloud->count; a++) { /* one order of summation, whatever the threads */
-        add_particle(run, a, &totals);
+        add_particle(run, a, V[a], &totals);
     }
     for (size_t i = 0; i < history->probe_count; i++) {
         size_t a = run->probe[i];
         double *u = history->probe_u + (history->count * history->probe_count + i) * 3;
         double *v = history->probe_v + (history->count * history->probe_count + i) * 3;
         for (size_t axis = 0; axis < 3; axis++) {
-            u[axis] = axis < dim ? run->work.x[a * lanes + axis] - run->cloud->X[a * dim + axis] : 0.0;
-            v[axis] = axis < dim ? run->work.v[a * lanes + axis] : 0.0;
+            u[axis] = axis < dim ? run->state.x[a * lanes + axis] - run->cloud->X[a * dim + axis] : 0.0;
+            v[axis] = axis < dim ? run->state.v[a * lanes + axis] : 0.0;
         }
     }
     history->totals[history->count++] = totals;

@@ -1,4 +1,5 @@
 /* A run in time: rates, stages, steps, and the checks that stop it. */
+#include "solver/pieces.h"
 #include "solver/run_internal.h"
 
 #include <math.h>
@@ -13,15 +14,14 @@ double solver_run_clock(void)
     return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
 }
 
-static size_t pieces(const struct solver_run *run)
+static bool is_finite(const struct solver_run *run, size_t a)
 {
-    return (run->cloud->count + SOLVER_PIECE - 1) / SOLVER_PIECE;
-}
-
-static void bounds(const struct solver_run *run, size_t piece, size_t *begin, size_t *end)
-{
-    *begin = piece * SOLVER_PIECE;
-    *end = *begin + SOLVER_PIECE < run->cloud->count ? *begin + SOLVER_PIECE : run->cloud->count;
+    size_t lanes = run->state.lanes;
+    double square = 0.0; /* as the loops do: what overflows when squared has grown beyond all bounds */
+    for (size_t i = 0; i < (size_t)run->cloud->dim; i++) {
+        square += run->state.v[a * lanes + i] * run->state.v[a * lanes + i];
+    }
+    return isfinite(square);
 }
 
 /* Fails with SOLVER_BROKE_DOWN if any particle's state is broken. */
@@ -30,63 +30,32 @@ bool solver_run_check(struct solver_run *run, struct solver_error *error)
     size_t count = run->cloud->count;
     size_t broken = count;
 #pragma omp parallel for schedule(static) reduction(min : broken)
-    for (size_t piece = 0; piece < pieces(run); piece++) {
-        size_t begin;
-        size_t end;
-        bounds(run, piece, &begin, &end);
-        size_t found = run->loops->first_broken(&run->work, begin, end);
-        broken = found < end && found < broken ? found : broken;
+    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+        struct solver_piece at = solver_piece_at(piece, count);
+        size_t found = run->scheme->first_broken(run->system, at.begin, at.end);
+        broken = found < at.end && found < broken ? found : broken;
     }
     if (broken == count) {
         return true;
     }
     const double *X = run->cloud->X + broken * (size_t)run->cloud->dim;
-    size_t lanes = run->loops->lanes;
-    double square = 0.0; /* as the loops do: what overflows when squared has grown beyond all bounds */
-    for (size_t i = 0; i < (size_t)run->cloud->dim; i++) {
-        square += run->work.v[broken * lanes + i] * run->work.v[broken * lanes + i];
-    }
-    double J;
-    if (run->work.J != NULL) {
-        J = run->work.J[broken];
-    } else {
-        size_t tensor = (size_t)run->cloud->dim * lanes;
-        run->loops->measures(false, 0, 1, run->work.F + broken * tensor, NULL, &J);
-    }
-    return solver_fail(error, SOLVER_BROKE_DOWN,
-                       "step %zu, t = %.6g s: particle %zu at X = (%g, %g, %g) m: %s. Try a smaller cfl, a finer n, or "
-                       "evolved = \"pFHJ\"",
-                       run->step, run->time, broken, X[0], run->cloud->dim > 1 ? X[1] : 0.0,
-                       run->cloud->dim > 2 ? X[2] : 0.0,
-                       !isfinite(square)               ? "linear momentum p is not finite"
-                       : !isfinite(J)                  ? "deformation gradient F or Jacobian J is not finite"
-                       : !run->work.frozen && J <= 0.0 ? "the particle is turned inside out, Jacobian J <= 0"
-                                                       : "deformation gradient F is not finite");
+    return solver_fail(
+        error, SOLVER_BROKE_DOWN, "step %zu, t = %.6g s: particle %zu at X = (%g, %g, %g) m: %s. Try %s", run->step,
+        run->time, broken, X[0], run->cloud->dim > 1 ? X[1] : 0.0, run->cloud->dim > 2 ? X[2] : 0.0,
+        is_finite(run, broken) ? run->scheme->complaint(run->system, broken) : "linear momentum p is not finite",
+        run->scheme->advice);
 }
 
-/* Rates of the present state at time t. */
-static bool evaluate(struct solver_run *run, double t, double *power, struct solver_error *error)
+/* Rates of the present state at time t, and the power of the loads. */
+static bool evaluate(struct solver_run *run, double t, double dt, double *power, struct solver_error *error)
 {
-    const struct solver_upwind *work = &run->work;
-#pragma omp parallel
-    {
-#pragma omp for schedule(static)
-        for (size_t piece = 0; piece < pieces(run); piece++) {
-            size_t begin;
-            size_t end;
-            bounds(run, piece, &begin, &end);
-            run->loops->gradients(work, begin, end);
-        }
-#pragma omp for schedule(static)
-        for (size_t piece = 0; piece < pieces(run); piece++) {
-            size_t begin;
-            size_t end;
-            bounds(run, piece, &begin, &end);
-            run->loops->rates(work, begin, end);
-        }
+    struct solver_state *state = &run->state;
+    if (!run->scheme->evaluate(run->system, t, dt, error)) {
+        return false;
     }
-    return solver_faces_load(&run->faces, run->scene, run->cloud, run->stencil, work->constants, work->stride, t,
-                             run->loops->lanes, work->v, work->v_rate, power, error);
+    struct solver_geometry geometry = run->scheme->geometry(run->system);
+    return solver_faces_load(&run->faces, &run->body, &geometry, t, state->lanes, state->v, state->v_rate, power,
+                             error);
 }
 
 /* One stage's update of the block's entries [first, last). The first stage of every integrator sets out from the state
@@ -122,68 +91,58 @@ static void update_slice(const struct solver_state *state, const struct solver_s
     }
 }
 
-void solver_run_stresses(struct solver_run *run)
+void solver_run_refresh(struct solver_run *run)
 {
+    size_t count = run->cloud->count;
 #pragma omp parallel for schedule(static)
-    for (size_t piece = 0; piece < pieces(run); piece++) {
-        size_t begin;
-        size_t end;
-        bounds(run, piece, &begin, &end);
-        run->loops->stresses(&run->work, begin, end);
+    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+        struct solver_piece at = solver_piece_at(piece, count);
+        run->scheme->refresh(run->system, at.begin, at.end);
     }
 }
 
-/* State and stress of the next stage, piece by piece, while the piece is in cache. */
+/* State of the next stage and what follows from it, piece by piece, while the piece is in cache. */
 static bool update(struct solver_run *run, const struct solver_stage *stage, double t, double dt,
                    struct solver_error *error)
 {
-    const struct solver_state *state = &run->state;
+    struct solver_state *state = &run->state;
 #pragma omp parallel for schedule(static)
-    for (size_t piece = 0; piece < pieces(run); piece++) {
-        size_t begin;
-        size_t end;
-        bounds(run, piece, &begin, &end);
+    for (size_t piece = 0; piece < solver_pieces(state->count); piece++) {
+        struct solver_piece at = solver_piece_at(piece, state->count);
         for (size_t f = 0; f < state->field_count && state->field[f].evolved; f++) {
             size_t width = state->field[f].width;
             size_t offset = state->field[f].offset;
-            update_slice(state, stage, dt, offset + begin * width, offset + end * width);
+            update_slice(state, stage, dt, offset + at.begin * width, offset + at.end * width);
         }
-        run->loops->stresses(&run->work, begin, end);
+        run->scheme->refresh(run->system, at.begin, at.end);
     }
-    return solver_faces_constrain(&run->faces, run->scene, run->cloud, t, run->loops->lanes, run->work.v, error);
+    return solver_faces_constrain(&run->faces, &run->body, t, state->lanes, state->v, error);
 }
 
-/* The step that the CFL number allows (000_e9ec29e1bde7947d.txt eq. 41). */
 static double largest_step(const struct solver_run *run)
 {
-    double fastest = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : fastest)
-    for (size_t piece = 0; piece < pieces(run); piece++) {
-        size_t begin;
-        size_t end;
-        bounds(run, piece, &begin, &end);
-        fastest =
-            fmax(fastest, run->work.material->fastest(run->work.constants, run->work.stride, begin, end, run->work.F));
-    }
-    return run->scene->cfl * run->cloud->spacing / fastest;
+    return run->scheme->largest_step(run->system);
 }
 
 /* The state at the start of the step again: after a stage that failed, or a step that broke a particle. */
 static void take_back(struct solver_run *run)
 {
     memcpy(run->state.U, run->state.start, run->state.evolved * sizeof(double));
-    solver_run_stresses(run);
+    solver_run_refresh(run);
 }
 
 static bool step(struct solver_run *run, double dt, struct solver_error *error)
 {
     const struct solver_integrator *integrator = run->integrator;
     double work = 0.0;
+    if (run->scheme->prepare != NULL && !run->scheme->prepare(run->system, dt, error)) {
+        return false;
+    }
     for (int s = 0; s < integrator->stages; s++) {
         const struct solver_stage *stage = &integrator->stage[s];
         double next = s + 1 < integrator->stages ? integrator->stage[s + 1].time : 1.0;
         double power;
-        bool known = evaluate(run, run->time + stage->time * dt, &power, error);
+        bool known = evaluate(run, run->time + stage->time * dt, dt, &power, error);
         if (!known || !update(run, stage, run->time + next * dt, dt, error)) {
             if (known || s > 0) { /* else there is nothing to take back, and no start of this step yet */
                 take_back(run);
@@ -192,6 +151,7 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
         }
         work += stage->weight * dt * power;
     }
+    /* What acts once per step on the state that is complete, as impulses between bodies do, has its place here. */
     run->time += dt;
     run->external += work;
     run->step++;

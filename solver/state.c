@@ -4,88 +4,53 @@
 
 #include <stdlib.h>
 
-static struct solver_field *declare(struct solver_state *state, const char *name, size_t width, bool evolved)
+/* Appends the table's fields of one kind to the state's, and returns the doubles they take. */
+static size_t take(struct solver_state *state, const struct solver_field *table, size_t rows, bool evolved)
 {
-    struct solver_field *field = &state->field[state->field_count++];
-    *field = (struct solver_field){.name = name, .width = width, .evolved = evolved};
-    return field;
+    size_t padded = (state->count + 7) / 8 * 8; /* every field starts on a cache line */
+    size_t size = 0;
+    for (size_t i = 0; i < rows; i++) {
+        if (table[i].evolved != evolved || table[i].width == 0) {
+            continue;
+        }
+        struct solver_field *field = &state->field[state->field_count++];
+        *field = table[i];
+        field->offset = size;
+        size += padded * field->width;
+    }
+    return size;
 }
 
-/* Where a scene's pointers lie, beside the field they belong to. */
-struct binding {
-    double **value, **rate;
-    struct solver_field *field;
-};
-
 bool solver_state_create(struct solver_state *state, size_t count, int dim, const struct solver_integrator *integrator,
-                         bool least_squares, struct solver_upwind *work, struct solver_error *error)
+                         const struct solver_field *table, size_t rows, struct solver_error *error)
 {
-    size_t d = (size_t)dim;
-    size_t lanes = d == 3 ? 4 : d;
-    size_t tensor = d * lanes;
-    struct binding evolved[5];
-    struct binding derived[5];
-    size_t evolved_count = 0;
-    size_t derived_count = 0;
-    *state = (struct solver_state){.count = count, .lanes = lanes};
-
-    evolved[evolved_count++] = (struct binding){&work->v, &work->v_rate, declare(state, "v", lanes, true)};
-    evolved[evolved_count++] = (struct binding){&work->x, &work->x_rate, declare(state, "x", lanes, true)};
-    evolved[evolved_count++] = (struct binding){&work->F, &work->F_rate, declare(state, "F", tensor, true)};
-    if (work->evolves_H) {
-        evolved[evolved_count++] = (struct binding){&work->H, &work->H_rate, declare(state, "H", tensor, true)};
-    }
-    if (work->evolves_J) {
-        evolved[evolved_count++] = (struct binding){&work->J, &work->J_rate, declare(state, "J", 1, true)};
-    }
-    derived[derived_count++] = (struct binding){&work->P, NULL, declare(state, "P", tensor, false)};
-    if (work->evolves_J && !work->evolves_H && !work->frozen) {
-        derived[derived_count++] = (struct binding){&work->cofactor, NULL, declare(state, "cof F", tensor, false)};
-    }
-    if (work->evolves_J && !work->whole_jump) {
-        derived[derived_count++] = (struct binding){&work->pressure, NULL, declare(state, "U'(J)", 1, false)};
-        if (work->reconstruct) {
-            derived[derived_count++] =
-                (struct binding){&work->pressure_gradient, NULL, declare(state, "grad U'(J)", lanes, false)};
+    *state = (struct solver_state){.count = count, .lanes = solver_state_lanes(dim)};
+    for (size_t i = 0; i < rows; i++) {
+        *table[i].value = NULL;
+        if (table[i].evolved) {
+            *table[i].rate = NULL;
         }
-    } else if (work->evolves_J && work->reconstruct) {
-        derived[derived_count++] =
-            (struct binding){&work->P_gradient, NULL, declare(state, "grad P", d * tensor, false)};
     }
-    if (work->reconstruct && least_squares) {
-        derived[derived_count++] = (struct binding){&work->v_gradient, NULL, declare(state, "grad v", tensor, false)};
-    }
-
-    size_t padded = (count + 7) / 8 * 8; /* every field starts on a cache line */
-    size_t derived_size = 0;
-    for (size_t i = 0; i < evolved_count; i++) {
-        evolved[i].field->offset = state->evolved;
-        state->evolved += padded * evolved[i].field->width;
-    }
-    for (size_t i = 0; i < derived_count; i++) {
-        derived[i].field->offset = derived_size;
-        derived_size += padded * derived[i].field->width;
-    }
+    state->evolved = take(state, table, rows, true);
+    size_t fixed = take(state, table, rows, false);
     if (!solver_alloc((void **)&state->U, state->evolved, sizeof(double), "state", error) ||
         !solver_alloc((void **)&state->start, state->evolved, sizeof(double), "state", error) ||
         !solver_alloc((void **)&state->rate, state->evolved, sizeof(double), "rates", error) ||
-        !solver_alloc((void **)&state->X, padded * lanes, sizeof(double), "positions", error) ||
-        !solver_alloc((void **)&state->derived, derived_size, sizeof(double), "stresses", error) ||
+        !solver_alloc((void **)&state->fixed, fixed, sizeof(double), "stresses", error) ||
         (integrator->needs_sum &&
          !solver_alloc((void **)&state->sum, state->evolved, sizeof(double), "stage sums", error))) {
         return false;
     }
-    for (size_t i = 0; i < evolved_count; i++) {
-        *evolved[i].value = state->U + evolved[i].field->offset;
-        *evolved[i].rate = state->rate + evolved[i].field->offset;
+    for (size_t i = 0; i < state->field_count; i++) {
+        const struct solver_field *field = &state->field[i];
+        *field->value = (field->evolved ? state->U : state->fixed) + field->offset;
+        if (field->evolved) {
+            *field->rate = state->rate + field->offset;
+        }
     }
-    for (size_t i = 0; i < derived_count; i++) {
-        *derived[i].value = state->derived + derived[i].field->offset;
-    }
-    if (work->evolves_H && !work->frozen) {
-        work->cofactor = work->H;
-    }
-    work->X = state->X;
+    state->v = *table[0].value;
+    state->x = *table[1].value;
+    state->v_rate = *table[0].rate;
     return true;
 }
 
@@ -95,14 +60,13 @@ void solver_state_free(struct solver_state *state)
     free(state->start);
     free(state->rate);
     free(state->sum);
-    free(state->X);
-    free(state->derived);
+    free(state->fixed);
     *state = (struct solver_state){.U = NULL};
 }
 
 double solver_state_bytes_per_particle(const struct solver_state *state, bool with_integrator)
 {
-    size_t doubles = state->lanes; /* reference positions */
+    size_t doubles = 0;
     for (size_t i = 0; i < state->field_count; i++) {
         size_t copies = state->field[i].evolved && with_integrator ? (state->sum != NULL ? 4 : 3) : 1;
         doubles += copies * state->field[i].width;

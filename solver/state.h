@@ -1,37 +1,49 @@
-/* State: the fields that the scene's terms declare, and no others. Evolved fields are one block, so that an
- * integrator's stage is one loop. */
+/* State: the fields that a scheme declares for its scene's terms, and no others. Evolved fields are one block, so that
+ * an integrator's stage is one loop. */
 #ifndef SOLVER_STATE_H
 #define SOLVER_STATE_H
 
+#include "solver/error.h"
 #include "solver/integrator.h"
-#include "solver/scene.h"
-#include "solver/upwind.h"
 
-/* A field of the state. */
+#include <stdbool.h>
+#include <stddef.h>
+
+/* A field of the state, and where the scheme wants its address put. */
 struct solver_field {
     const char *name;
-    size_t width;  /* doubles per particle, padding included */
-    size_t offset; /* evolved fields: start within the evolved block, in doubles */
-    bool evolved;
+    size_t width;   /* doubles per particle, padding included; 0: the scene's terms need no such field */
+    bool evolved;   /* it has a rate, and the integrator's copies */
+    double **value; /* becomes [count][width] */
+    double **rate;  /* the same of an evolved field's rate; else NULL */
+    size_t offset;  /* start within its block, in doubles; set by solver_state_create */
 };
 
-enum { SOLVER_STATE_FIELDS = 12 };
+enum { SOLVER_STATE_FIELDS = 24 };
 
 struct solver_state {
     size_t count, lanes;
     size_t field_count;
-    struct solver_field field[SOLVER_STATE_FIELDS];
-    size_t evolved;    /* doubles of the evolved block */
-    double *U, *start; /* [evolved] state now and at the start of the step */
-    double *rate;      /* [evolved] */
-    double *sum;       /* [evolved]; NULL where the integrator does not need it */
-    double *X;         /* [count][lanes] reference positions [m] */
-    double *derived;   /* all fields that are not evolved */
+    struct solver_field field[SOLVER_STATE_FIELDS]; /* evolved ones first */
+    size_t evolved;                                 /* doubles of the evolved block */
+    double *U, *start;                              /* [evolved] state now and at the start of the step */
+    double *rate;                                   /* [evolved] */
+    double *sum;                                    /* [evolved]; NULL where the integrator does not need it */
+    double *fixed;                                  /* all fields that are not evolved */
+    double *v, *x, *v_rate;                         /* [count][lanes], within the blocks */
 };
 
-/* Reserves the fields and points `work` at them. `least_squares`: the reconstruction has a gradient of its own. */
+/* Doubles that a vector takes, padded. */
+static inline size_t solver_state_lanes(int dim)
+{
+    return dim == 3 ? 4 : (size_t)dim;
+}
+
+/* Reserves the fields of a table of at most SOLVER_STATE_FIELDS rows and writes their addresses where the rows say,
+ * NULL for those of width 0. The table's first two rows are the velocity v [m/s] and the position x [m] of the
+ * particles, evolved padded vectors. */
 bool solver_state_create(struct solver_state *state, size_t count, int dim, const struct solver_integrator *integrator,
-                         bool least_squares, struct solver_upwind *work, struct solver_error *error);
+                         const struct solver_field *table, size_t rows, struct solver_error *error);
 void solver_state_free(struct solver_state *state);
 /* Of the scheme's fields alone, and with the integrator's copies. */
 double solver_state_bytes_per_particle(const struct solver_state *state, bool with_integrator);

@@ -14,7 +14,6 @@ struct solver_upwind {
     const uint32_t *neighbour;
     const double *pair, *transposed, *row_sum, *V;
     const double *least_squares; /* NULL: reconstruct with the stencil's own gradient */
-    const double *X;             /* padded vectors [m] */
 
     /* What the scene asks for. */
     const struct solver_material *material;
@@ -30,6 +29,7 @@ struct solver_upwind {
      * is continuous where materials meet. */
     double *v, *x, *F, *H, *J; /* evolved */
     double *v_rate, *x_rate, *F_rate, *H_rate, *J_rate;
+    double *X;                 /* reference positions [m] */
     double *P;                 /* stress */
     double *cofactor;          /* H, or cof F where H is not evolved but the equation of J needs it */
     double *v_gradient;        /* tensor: least-squares gradient of v; NULL: F_rate serves */

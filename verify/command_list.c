@@ -1,6 +1,7 @@
 #include "oracles/oracle.h"
 #include "solver/integrator.h"
 #include "solver/material.h"
+#include "solver/scheme.h"
 #include "solver/stencil.h"
 #include "verify/commands.h"
 #include "verify/find.h"
@@ -55,10 +56,15 @@ static bool list_schemes(struct solver_error *error)
 {
     (void)error;
     (void)printf("schemes\n");
-    list_line("upwind", "total-Lagrangian mixed method with Riemann dissipation (000_e9ec29e1bde7947d.txt)");
-    list_line("  evolved = \"pF\"", "linear momentum p and deformation gradient F");
-    list_line("  evolved = \"pFJ\"", "p, F and Jacobian J");
-    list_line("  evolved = \"pFHJ\"", "p, F, cofactor H and J");
+    for (const struct solver_scheme *const *scheme = solver_schemes(); *scheme != NULL; scheme++) {
+        list_line((*scheme)->name, (*scheme)->summary);
+        for (const struct solver_scheme_choice *choice = (*scheme)->choice; choice != NULL && choice->text != NULL;
+             choice++) {
+            char indented[SOLVER_NAME];
+            (void)snprintf(indented, sizeof indented, "  %s", choice->text);
+            list_line(indented, choice->meaning);
+        }
+    }
     return true;
 }
 

@@ -1,0 +1,23 @@
+#include "solver/scheme.h"
+
+#include <string.h>
+
+static const struct solver_scheme *const schemes[] = {
+    &solver_scheme_upwind,
+    NULL,
+};
+
+const struct solver_scheme *const *solver_schemes(void)
+{
+    return schemes;
+}
+
+const struct solver_scheme *solver_scheme_find(const char *name)
+{
+    for (const struct solver_scheme *const *scheme = schemes; *scheme != NULL; scheme++) {
+        if (strcmp((*scheme)->name, name) == 0) {
+            return *scheme;
+        }
+    }
+    return NULL;
+}

@@ -1,0 +1,85 @@
+/* Schemes: the semi-discrete right-hand side. A scheme brings its own geometry (a stencil, or neighbours that change)
+ * and its own fields; a run brings everything else. A new scheme is one file scheme_NAME.c and one line in scheme.c. */
+#ifndef SOLVER_SCHEME_H
+#define SOLVER_SCHEME_H
+
+#include "solver/cloud.h"
+#include "solver/error.h"
+#include "solver/material.h"
+#include "solver/scene.h"
+#include "solver/state.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* What a run gives its scheme. It belongs to the run and outlives the scheme's system. */
+struct solver_body {
+    const struct solver_scene *scene;
+    const struct solver_cloud *cloud;
+    const struct solver_material_constants *constants; /* [1], or [count] in a composite body */
+    size_t stride;                                     /* 0, or 1 in a composite body */
+};
+
+/* What a system stands on. Arrays belong to it. */
+struct solver_geometry {
+    const double *V;                            /* [count] volumes in the reference configuration [m^dim]: the weights
+                                                   of every sum and norm; V rho0 is a particle's mass */
+    const struct solver_face_point *face_point; /* [face_point_count] where loads act */
+    size_t face_point_count;
+    size_t pairs;
+    double bytes;    /* of all that is not a field of the state */
+    int passes;      /* times that one evaluation reads it */
+    double residual; /* of a stencil (run.h); NAN where there is none */
+};
+
+/* One particle, for pictures, files and norms; tensors row by row. */
+struct solver_point {
+    double sigma[9];         /* [3][3] Cauchy stress [Pa], with its components out of the plane or line */
+    double J;                /* volume now over volume in the reference configuration */
+    double F[9], H[9], P[9]; /* [dim][dim]; not set unless the scheme has a deformation gradient */
+    double P_normal;         /* the component of P out of the plane or line [Pa]; the same, below 3D */
+};
+
+/* A value of a scene's key that belongs to the scheme, for lists. */
+struct solver_scheme_choice {
+    const char *text, *meaning;
+};
+
+struct solver_scheme {
+    const char *name, *summary;
+    const struct solver_scheme_choice *choice; /* ends with a NULL text; NULL: none */
+    bool deformation;                          /* it knows F, H and P */
+    const char *advice;                        /* what to try when a particle breaks */
+
+    /* Geometry and terms, for the scene's keys. The fields come later. */
+    bool (*create)(const struct solver_body *body, void **system, struct solver_error *error);
+    void (*destroy)(void *system);
+    struct solver_geometry (*geometry)(const void *system);
+    /* Fills the table of fields (state.h) and returns its rows. */
+    size_t (*fields)(void *system, struct solver_field table[SOLVER_STATE_FIELDS]);
+    /* The other fields of the initial state; v and x are there. */
+    bool (*start)(void *system, struct solver_error *error);
+    /* Once before each step of size dt; NULL: nothing to do. What it changes of the state is kept if the step fails. */
+    bool (*prepare)(void *system, double dt, struct solver_error *error);
+    /* All rates of the present state at time t, in a step of size dt; without tractions and body forces. */
+    bool (*evaluate)(void *system, double t, double dt, struct solver_error *error);
+    /* What follows from a changed state, particle by particle. Particles [begin, end); runs in a thread. */
+    void (*refresh)(void *system, size_t begin, size_t end);
+    /* The longest step [s] that the scene's CFL number allows. */
+    double (*largest_step)(const void *system);
+    /* First particle in [begin, end) whose state is broken (not finite, or without volume), else end. In a thread. */
+    size_t (*first_broken)(const void *system, size_t begin, size_t end);
+    /* Of such a particle, whose velocity is finite: what is broken. */
+    const char *(*complaint)(const void *system, size_t particle);
+    void (*look)(const void *system, size_t particle, struct solver_point *point);
+    /* Strain energy per unit reference volume [J/m^3]. */
+    double (*energy)(const void *system, size_t particle);
+};
+
+/* The table, ends with NULL. */
+const struct solver_scheme *const *solver_schemes(void);
+const struct solver_scheme *solver_scheme_find(const char *name);
+
+extern const struct solver_scheme solver_scheme_upwind;
+
+#endif

@@ -1,0 +1,337 @@
+/* The mixed total-Lagrangian Upwind scheme (000_e9ec29e1bde7947d.txt) as a scheme of the table: its stencil, its terms
+ * and its fields. The loops are in upwind_dim.c. */
+#include "solver/memory.h"
+#include "solver/pieces.h"
+#include "solver/scheme.h"
+#include "solver/stencil.h"
+#include "solver/upwind.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct system {
+    const struct solver_body *body;
+    const struct solver_upwind_loops *loops;
+    struct solver_stencil *stencil;
+    struct solver_stencil_residuals residuals;
+    struct solver_upwind work;
+};
+
+static void choose_terms(struct system *system, const struct solver_material *material)
+{
+    const struct solver_scene *scene = system->body->scene;
+    struct solver_upwind *work = &system->work;
+    const struct solver_upwind_loops *loops[] = {&solver_upwind_1d, &solver_upwind_2d, &solver_upwind_3d};
+    system->loops = loops[scene->dim - 1];
+    work->material = material;
+    work->evolves_J = scene->evolved != SOLVER_PF;
+    work->evolves_H = scene->evolved == SOLVER_PFHJ;
+    work->frozen = material->linear;
+    work->whole_jump = strcmp(scene->volume_flux, "stress") == 0;
+    work->reconstruct = strcmp(scene->reconstruction, "none") != 0;
+    work->constants = system->body->constants;
+    work->stride = system->body->stride;
+}
+
+static void bind_stencil(struct system *system)
+{
+    const struct solver_stencil *stencil = system->stencil;
+    system->work.row = stencil->graph.row;
+    system->work.neighbour = stencil->graph.neighbour;
+    system->work.pair = stencil->pair;
+    system->work.transposed = stencil->transposed;
+    system->work.row_sum = stencil->row_sum;
+    system->work.least_squares = stencil->least_squares;
+    system->work.V = stencil->V;
+}
+
+static void destroy(void *of)
+{
+    struct system *system = of;
+    solver_stencil_free(system->stencil);
+    free(system);
+}
+
+static bool create(const struct solver_body *body, void **out, struct solver_error *error)
+{
+    const struct solver_scene *scene = body->scene;
+    const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
+    const struct solver_material_model *model = solver_material_find(scene->material_model);
+    bool least_squares = strcmp(scene->reconstruction, "least-squares") == 0;
+    struct system *system = NULL;
+    if (builder == NULL || model == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "%s: no stencil \"%s\" or material \"%s\"", scene->path,
+                           scene->stencil, scene->material_model);
+    }
+    if (!solver_alloc((void **)&system, 1, sizeof *system, "scheme", error)) {
+        return false;
+    }
+    system->body = body;
+    choose_terms(system, model->in[scene->dim - 1]);
+    if (!solver_stencil_create(builder, body->cloud, scene->support, &system->stencil, error) ||
+        (least_squares && !solver_stencil_add_least_squares(system->stencil, body->cloud, error))) {
+        destroy(system);
+        return false;
+    }
+    bind_stencil(system);
+    system->residuals = solver_stencil_check(system->stencil, body->cloud);
+    *out = system;
+    return true;
+}
+
+static struct solver_geometry geometry(const void *of)
+{
+    const struct system *system = of;
+    const struct solver_stencil *stencil = system->stencil;
+    return (struct solver_geometry){
+        .V = stencil->V,
+        .face_point = stencil->face_point,
+        .face_point_count = stencil->face_point_count,
+        .pairs = stencil->pairs,
+        .bytes = (double)solver_stencil_bytes(stencil),
+        .passes = 2, /* gradients, rates */
+        .residual = fmax(system->residuals.closure, system->residuals.linear),
+    };
+}
+
+static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
+{
+    struct system *system = of;
+    struct solver_upwind *work = &system->work;
+    size_t dim = (size_t)system->body->cloud->dim;
+    size_t vector = system->loops->lanes;
+    size_t tensor = dim * vector;
+    bool pressure = work->evolves_J && !work->whole_jump;
+    const struct solver_field rows[] = {
+        {"v", vector, true, &work->v, &work->v_rate, 0},
+        {"x", vector, true, &work->x, &work->x_rate, 0},
+        {"F", tensor, true, &work->F, &work->F_rate, 0},
+        {"H", work->evolves_H ? tensor : 0, true, &work->H, &work->H_rate, 0},
+        {"J", work->evolves_J ? 1 : 0, true, &work->J, &work->J_rate, 0},
+        {"X", vector, false, &work->X, NULL, 0},
+        {"P", tensor, false, &work->P, NULL, 0},
+        {"cof F", work->evolves_J && !work->evolves_H && !work->frozen ? tensor : 0, false, &work->cofactor, NULL, 0},
+        {"U'(J)", pressure ? 1 : 0, false, &work->pressure, NULL, 0},
+        {"grad U'(J)", pressure && work->reconstruct ? vector : 0, false, &work->pressure_gradient, NULL, 0},
+        {"grad P", work->evolves_J && work->whole_jump && work->reconstruct ? dim * tensor : 0, false,
+         &work->P_gradient, NULL, 0},
+        {"grad v", work->reconstruct && work->least_squares != NULL ? tensor : 0, false, &work->v_gradient, NULL, 0},
+    };
+    memcpy(table, rows, sizeof rows);
+    return sizeof rows / sizeof *rows;
+}
+
+/* F = sum_b (x_b - x_a) (x) C_ab / 2V_a, row by row. */
+static void discrete_F(const struct system *system, size_t a, double *F)
+{
+    const struct solver_stencil *stencil = system->stencil;
+    const double *x = system->work.x;
+    size_t dim = (size_t)stencil->dim;
+    size_t lanes = system->loops->lanes;
+    memset(F, 0, dim * dim * sizeof *F);
+    for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
+        const double *C = solver_stencil_C(stencil, ab);
+        size_t b = stencil->graph.neighbour[ab];
+        for (size_t i = 0; i < dim; i++) {
+            double d = x[b * lanes + i] - x[a * lanes + i];
+            for (size_t I = 0; I < dim; I++) {
+                F[i * dim + I] += 0.5 * d * C[I] / stencil->V[a];
+            }
+        }
+    }
+}
+
+static bool start(void *of, struct solver_error *error)
+{
+    struct system *system = of;
+    struct solver_upwind *work = &system->work;
+    const struct solver_scene *scene = system->body->scene;
+    const struct solver_cloud *cloud = system->body->cloud;
+    size_t dim = (size_t)cloud->dim;
+    size_t lanes = system->loops->lanes;
+    if (work->evolves_H && !work->frozen) {
+        work->cofactor = work->H;
+    }
+    for (size_t a = 0; a < cloud->count; a++) {
+        double X[3] = {0};
+        double F[9];
+        memcpy(X, cloud->X + a * dim, dim * sizeof *X);
+        memcpy(work->X + a * lanes, X, dim * sizeof *X);
+        if (!solver_scene_has(scene, SOLVER_INITIAL_F)) {
+            discrete_F(system, a, F);
+        } else if (!solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {
+            return false;
+        }
+        for (size_t i = 0; i < dim; i++) {
+            for (size_t I = 0; I < dim; I++) {
+                work->F[(a * dim + I) * lanes + i] = F[i * dim + I];
+            }
+        }
+    }
+    system->loops->measures(work->frozen, 0, cloud->count, work->F, work->H, work->J);
+    return true;
+}
+
+static bool evaluate(void *of, double t, double dt, struct solver_error *error)
+{
+    const struct system *system = of;
+    const struct solver_upwind *work = &system->work;
+    size_t count = system->body->cloud->count;
+    (void)t;
+    (void)dt;
+    (void)error;
+#pragma omp parallel
+    {
+#pragma omp for schedule(static)
+        for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+            struct solver_piece at = solver_piece_at(piece, count);
+            system->loops->gradients(work, at.begin, at.end);
+        }
+#pragma omp for schedule(static)
+        for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+            struct solver_piece at = solver_piece_at(piece, count);
+            system->loops->rates(work, at.begin, at.end);
+        }
+    }
+    return true;
+}
+
+static void refresh(void *of, size_t begin, size_t end)
+{
+    const struct system *system = of;
+    system->loops->stresses(&system->work, begin, end);
+}
+
+/* The step that the CFL number allows (eq. 41). */
+static double largest_step(const void *of)
+{
+    const struct system *system = of;
+    const struct solver_upwind *work = &system->work;
+    size_t count = system->body->cloud->count;
+    double fastest = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : fastest)
+    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+        struct solver_piece at = solver_piece_at(piece, count);
+        fastest = fmax(fastest, work->material->fastest(work->constants, work->stride, at.begin, at.end, work->F));
+    }
+    return system->body->scene->cfl * system->body->cloud->spacing / fastest;
+}
+
+static size_t first_broken(const void *of, size_t begin, size_t end)
+{
+    const struct system *system = of;
+    return system->loops->first_broken(&system->work, begin, end);
+}
+
+static const char *complaint(const void *of, size_t a)
+{
+    const struct system *system = of;
+    const struct solver_upwind *work = &system->work;
+    size_t tensor = (size_t)system->body->cloud->dim * system->loops->lanes;
+    double J;
+    if (work->J != NULL) {
+        J = work->J[a];
+    } else {
+        system->loops->measures(false, 0, 1, work->F + a * tensor, NULL, &J);
+    }
+    return !isfinite(J)                ? "deformation gradient F or Jacobian J is not finite"
+           : !work->frozen && J <= 0.0 ? "the particle is turned inside out, Jacobian J <= 0"
+                                       : "deformation gradient F is not finite";
+}
+
+/* A padded tensor of particle a, row by row. */
+static void rows_of(const struct system *system, const double *field, size_t a, double *rows)
+{
+    size_t dim = (size_t)system->body->cloud->dim;
+    size_t lanes = system->loops->lanes;
+    for (size_t i = 0; i < dim; i++) {
+        for (size_t I = 0; I < dim; I++) {
+            rows[i * dim + I] = field[(a * dim + I) * lanes + i];
+        }
+    }
+}
+
+/* F, and H and J: evolved, or those of F. */
+static void measures_of(const struct system *system, size_t a, struct solver_point *point)
+{
+    const struct solver_upwind *work = &system->work;
+    size_t tensor = (size_t)system->body->cloud->dim * system->loops->lanes;
+    double H[12] __attribute__((aligned(64)));
+    double F[12] __attribute__((aligned(64)));
+    double J;
+    memcpy(F, work->F + a * tensor, tensor * sizeof *F);
+    system->loops->measures(work->frozen, 0, 1, F, H, &J);
+    rows_of(system, F, 0, point->F);
+    rows_of(system, work->H != NULL ? work->H : H, work->H != NULL ? a : 0, point->H);
+    point->J = work->J != NULL ? work->J[a] : J;
+}
+
+/* sigma = P F^T / J; with linear kinematics sigma = P. */
+static void cauchy(const struct system *system, struct solver_point *point)
+{
+    size_t dim = (size_t)system->body->cloud->dim;
+    bool linear = system->work.frozen;
+    memset(point->sigma, 0, sizeof point->sigma);
+    for (size_t i = 0; i < dim; i++) {
+        for (size_t j = 0; j < dim; j++) {
+            double *sigma = &point->sigma[3 * i + j];
+            *sigma = linear ? point->P[i * dim + j] : 0.0;
+            for (size_t I = 0; !linear && I < dim; I++) {
+                *sigma += point->P[i * dim + I] * point->F[j * dim + I] / point->J;
+            }
+        }
+    }
+    for (size_t i = dim; i < 3; i++) {
+        point->sigma[4 * i] = point->P_normal / (linear ? 1.0 : point->J);
+    }
+}
+
+static void look(const void *of, size_t a, struct solver_point *point)
+{
+    const struct system *system = of;
+    const struct solver_upwind *work = &system->work;
+    measures_of(system, a, point);
+    rows_of(system, work->P, a, point->P);
+    point->P_normal = 0.0;
+    if (system->body->cloud->dim < 3) {
+        point->P_normal = work->material->stress_normal(work->constants + a * work->stride, point->F, point->J);
+    }
+    cauchy(system, point);
+}
+
+static double energy(const void *of, size_t a)
+{
+    const struct system *system = of;
+    const struct solver_upwind *work = &system->work;
+    struct solver_point point;
+    measures_of(system, a, &point);
+    return work->material->energy(work->constants + a * work->stride, point.F, point.H, point.J);
+}
+
+static const struct solver_scheme_choice choices[] = {
+    {"evolved = \"pF\"", "linear momentum p and deformation gradient F"},
+    {"evolved = \"pFJ\"", "p, F and Jacobian J"},
+    {"evolved = \"pFHJ\"", "p, F, cofactor H and J"},
+    {NULL, NULL},
+};
+
+const struct solver_scheme solver_scheme_upwind = {
+    .name = "upwind",
+    .summary = "total-Lagrangian mixed method with Riemann dissipation (000_e9ec29e1bde7947d.txt)",
+    .choice = choices,
+    .deformation = true,
+    .advice = "a smaller cfl, a finer n, or evolved = \"pFHJ\"",
+    .create = create,
+    .destroy = destroy,
+    .geometry = geometry,
+    .fields = fields,
+    .start = start,
+    .evaluate = evaluate,
+    .refresh = refresh,
+    .largest_step = largest_step,
+    .first_broken = first_broken,
+    .complaint = complaint,
+    .look = look,
+    .energy = energy,
+};
