@@ -17,7 +17,7 @@
  *     r  =  SPREAD u sqrt(STAGES (N + 1)) (1 / dev + sqrt(PAIRS)).
  *
  * The bound of a field is r times its own scale. F, H and J are measured by dev, not by their magnitude of one, and get
- * their last bit on top.
+ * their last bit on top. Of a scheme that keeps the density in place of F, dev is max |J - 1|.
  *
  * r is never more than CAP, half of 1e-10: whatever the run, a change in the tenth digit of the scale is caught. A
  * scene whose strain is so small or whose run is so long that round-off alone would pass CAP is no good golden scene:
@@ -53,13 +53,14 @@ static double field_norm(const struct solver_record *record, const char *name)
     return field == NULL ? 0.0 : max_norm(field->value, record->count * (size_t)field->width);
 }
 
-/* Largest |F - I| over particles and components. */
+/* Largest |F - I| over particles and components, or |J - 1| of a scheme that has no F. */
 static double deviation(const struct solver_record *record)
 {
     const struct solver_record_field *F = solver_record_find(record, "F");
+    const struct solver_record_field *field = F != NULL ? F : solver_record_find(record, "J");
     double most = 0.0;
-    for (size_t i = 0; F != NULL && F->width == 9 && i < 9 * record->count; i++) {
-        most = fmax(most, fabs(F->value[i] - (i % 9 % 4 == 0 ? 1.0 : 0.0)));
+    for (size_t i = 0; field != NULL && i < (size_t)field->width * record->count; i++) {
+        most = fmax(most, fabs(field->value[i] - (i % (size_t)field->width % 4 == 0 ? 1.0 : 0.0)));
     }
     return most;
 }
@@ -88,7 +89,7 @@ double golden_field_bound(const struct solver_record *stored, const struct solve
         return r * dev + 2.0 * UNIT;
     }
     if (is(field->name, "pressure") || is(field->name, "von_mises")) { /* parts of a stress that may cancel in them */
-        return r * fmax(field_norm(stored, field->name), field_norm(stored, "P"));
+        return r * fmax(field_norm(stored, field->name), fmax(field_norm(stored, "P"), field_norm(stored, "sigma")));
     }
     return r * field_norm(stored, field->name);
 }

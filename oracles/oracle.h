@@ -60,7 +60,8 @@ struct oracle_kind {
     const char *summary; /* one line */
     const char *source;  /* paper file and equation */
     int dim;
-    enum oracle_smoothness smoothness;        /* of the worst front there may be */
+    enum oracle_smoothness smoothness; /* of the worst front there may be */
+    bool finite_strain;                /* no linear elasticity, whose stresses are all alike: see oracle_cauchy */
     const struct oracle_parameter *parameter; /* ends with a NULL name */
     /* Values in the order of `parameter`, already within their intervals. */
     bool (*create)(const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
@@ -86,6 +87,12 @@ const struct oracle_kind *oracle_find(const char *name);
 /* Checks that every value is finite and admissible, then creates. The kind's destroy frees. On failure *oracle is NULL
  * and `why` names the parameter, its value, what it must be and a value that would do. */
 bool oracle_create(const struct oracle_kind *kind, const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
+
+/* det F of a state. */
+double oracle_jacobian(const struct oracle_state *state);
+/* The Cauchy stress [Pa] of a state, row by row: P F^T / det F, or P where the kind is one of linear elasticity, in
+ * which strains are too small to tell the two apart. */
+void oracle_cauchy(const struct oracle_kind *kind, const struct oracle_state *state, double sigma[9]);
 
 /* Whether a line of a self-check holds: a NaN holds nothing. */
 bool oracle_law_holds(const struct oracle_check *line);

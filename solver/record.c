@@ -67,13 +67,13 @@ static bool add_vector(struct solver_record *record, const char *name, const cha
     return value != NULL;
 }
 
-/* In-plane blocks; out of the plane the diagonal has `normal`, or 1 where it is NULL. */
+/* In-plane blocks; out of the plane the diagonal has `normal`, or 1 where it is NULL. No source, no field. */
 static bool add_tensor(struct solver_record *record, const char *name, const char *unit, const double *source,
                        const double *normal, struct solver_error *error)
 {
-    double *value = add_field(record, name, unit, 9, error);
+    double *value = source != NULL ? add_field(record, name, unit, 9, error) : NULL;
     if (value == NULL) {
-        return false;
+        return source == NULL;
     }
     size_t dim = (size_t)record->dim;
     for (size_t a = 0; a < record->count; a++) {
@@ -108,12 +108,13 @@ static bool add_fields(struct solver_record *record, const struct solver_scene *
     }
     record->field = field;
     return add_tensor(record, "F", "-", output->F, NULL, error) &&
-           (scene->evolved != SOLVER_PFHJ || add_tensor(record, "H", "-", output->H, output->J, error)) &&
+           add_tensor(record, "H", "-", scene->evolved == SOLVER_PFHJ ? output->H : NULL, output->J, error) &&
            add_scalar(record, "J", "-", output->J, error) &&
            add_tensor(record, "P", "Pa", output->P, output->P_normal, error) &&
            add_vector(record, "displacement", "m", output->u, error) &&
            add_vector(record, "momentum", "kg/(m^2 s)", output->p, error) &&
            add_scalar(record, "pressure", "Pa", output->pressure, error) &&
+           add_tensor(record, "sigma", "Pa", output->sigma, output->sigma_normal, error) &&
            add_tags(record, output->cloud->tags, error) && add_vector(record, "velocity", "m/s", output->v, error) &&
            add_scalar(record, "volume", volume_unit[record->dim], output->V, error) &&
            add_scalar(record, "von_mises", "Pa", output->von_mises, error);

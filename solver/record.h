@@ -19,10 +19,11 @@
 
 /* One field of a record: count rows of `width` numbers. */
 struct solver_record_field {
-    char name[SOLVER_NAME]; /* "displacement", "velocity", "pressure", "von_mises", "F", "J", "P", "tags", ... */
+    char name[SOLVER_NAME]; /* "displacement", "velocity", "pressure", "von_mises", "F", "J", "P", "sigma", "tags", ...
+                             */
     char unit[32];          /* "m", "Pa", "-" */
     int width;     /* 1; 3 for vectors and 9 for tensors, below 3D with the out-of-plane part of plane strain: 1 on the
-                      diagonal of F, J on that of H, the normal stress on that of P, zeros elsewhere */
+                      diagonal of F, J on that of H, the normal stress on those of P and sigma, zeros elsewhere */
     double *value; /* [count][width] */
 };
 
@@ -46,8 +47,9 @@ struct solver_record {
     char *scene_name, *scene_text, *overrides, *command, *version; /* attributes, "" if absent */
 };
 
-/* The record of what the body is doing now; history may be NULL. Fields are sorted by name. H is among them where it
- * is evolved. SOLVER_BAD_INPUT if a probe's name is too long for a column's, SOLVER_NO_MEMORY. */
+/* The record of what the body is doing now; history may be NULL. Fields are sorted by name. F and P are
+ * among them where the scheme has them, H where it is evolved. SOLVER_BAD_INPUT if a probe's name is too long for a
+ * column's, SOLVER_NO_MEMORY. */
 bool solver_record_make(const struct solver_scene *scene, const struct solver_output *output,
                         const struct solver_history *history, const char *command, const char *version,
                         struct solver_record **record, struct solver_error *error);

@@ -3,9 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct record_required record_required[] = {
-    {"F", 9},    {"J", 1},        {"P", 9},      {"displacement", 3}, {"momentum", 3}, {"pressure", 1},
-    {"tags", 1}, {"velocity", 3}, {"volume", 1}, {"von_mises", 1},    {NULL, 0},
+const struct record_known record_known[] = {
+    {"F", 9, false},           {"H", 9, false},        {"J", 1, true},        {"P", 9, false},   {"sigma", 9, false},
+    {"displacement", 3, true}, {"momentum", 3, true},  {"pressure", 1, true}, {"tags", 1, true}, {"velocity", 3, true},
+    {"volume", 1, true},       {"von_mises", 1, true}, {NULL, 0, false},
 };
 
 uint8_t record_vtk_type(int cell_width)

@@ -12,12 +12,13 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "checksums are little-
 
 enum { RECORD_UNIT = 32, RECORD_PATH = 4096, RECORD_MAX_FIELDS = 64, RECORD_MAX_COLUMNS = 4096 };
 
-/* The fields without which a record is no record of ours; ends with a NULL name. */
-struct record_required {
+/* The fields that records have; ends with a NULL name. */
+struct record_known {
     const char *name;
     int width;
+    bool required; /* without it a record is no record of ours; else it is there where the scheme knows it */
 };
-extern const struct record_required record_required[];
+extern const struct record_known record_known[];
 
 /* VTK's cell type (line 3, quad 9, hexahedron 12) of cells with 2, 4, 8 corners. */
 uint8_t record_vtk_type(int cell_width);

@@ -158,14 +158,14 @@ static bool read_field(struct record_source *source, hid_t group, struct solver_
     return ok;
 }
 
-static bool has_required(struct record_source *source, const struct solver_record *record)
+static bool has_known(struct record_source *source, const struct solver_record *record)
 {
-    for (const struct record_required *need = record_required; need->name != NULL; need++) {
-        const struct solver_record_field *field = solver_record_find(record, need->name);
-        if (field == NULL || field->width != need->width) {
-            return record_refuse(source, need->name, "%s; expected %d number%s a particle",
-                                 field == NULL ? "field is missing" : "field has another width", need->width,
-                                 need->width == 1 ? "" : "s");
+    for (const struct record_known *known = record_known; known->name != NULL; known++) {
+        const struct solver_record_field *field = solver_record_find(record, known->name);
+        if (field == NULL ? known->required : field->width != known->width) {
+            return record_refuse(source, known->name, "%s; expected %d number%s a particle",
+                                 field == NULL ? "field is missing" : "field has another width", known->width,
+                                 known->width == 1 ? "" : "s");
         }
     }
     return true;
@@ -194,7 +194,7 @@ static bool read_fields(struct record_source *source, hid_t grid, struct solver_
         record->field_count = (size_t)i + (field->value != NULL);
     }
     (void)H5Gclose(group);
-    return ok && has_required(source, record);
+    return ok && has_known(source, record);
 }
 
 /* Reads [columns] texts of `size` bytes, each ending with a zero byte. */

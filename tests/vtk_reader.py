@@ -16,8 +16,8 @@ except ImportError as missing:
     sys.exit(77)
 
 POINTS, CELLS, VTK_TYPE = {1: 3, 2: 12, 3: 60}, {1: 2, 2: 6, 3: 24}, {1: 3, 2: 9, 3: 12}
-WIDTH = {"F": 9, "H": 9, "J": 1, "P": 9, "displacement": 3, "momentum": 3, "pressure": 1, "tags": 1, "velocity": 3,
-         "volume": 1, "von_mises": 1}
+WIDTH = {"F": 9, "H": 9, "J": 1, "P": 9, "displacement": 3, "momentum": 3, "pressure": 1, "sigma": 9, "tags": 1,
+         "velocity": 3, "volume": 1, "von_mises": 1}
 failures = []
 checks = 0
 
@@ -49,6 +49,7 @@ def check_values(where, dim, grid):
             "F": [G[i][j] + (i == j) for i in range(3) for j in range(3)],
             "H": [(1 + trace if i >= dim else 1) * (i == j) - G[i][j] for i in range(3) for j in range(3)],
             "P": [1e6 * G[i][j] + (3e5 + a) * (i == j >= dim) for i in range(3) for j in range(3)],
+            "sigma": [5e5 * G[i][j] + (4e5 + a) * (i == j >= dim) for i in range(3) for j in range(3)],
             "J": [1 + trace], "displacement": u, "velocity": v, "momentum": [1100 * w for w in v],
             "pressure": [1e6 * trace / 3], "von_mises": [2e6 * trace], "volume": [0.125 + 0.001 * a], "tags": [a % 64],
         }

@@ -50,16 +50,26 @@ static const struct solver_record_field *find_scalar(const struct solver_record 
     return field;
 }
 
+/* Always false. */
+static bool refuse_field(const struct solver_record *record, const char *name, struct solver_error *error)
+{
+    char has[SOLVER_TEXT] = "";
+    for (size_t i = 0, used = 0; i < record->field_count && used < sizeof has; i++) {
+        used += (size_t)snprintf(has + used, sizeof has - used, "%s%s", i > 0 ? ", " : "", record->field[i].name);
+    }
+    return solver_fail(error, SOLVER_BAD_INPUT,
+                       "view.field: the record has no scalar \"%s\"; its fields are %s, and a vector's or tensor's "
+                       "components are scalars, as in displacement_x, sigma_xy",
+                       name, has);
+}
+
 static bool read_scalar(const struct solver_record *record, const char *name, double *scalar, const char **unit,
                         struct solver_error *error)
 {
     int first = 0, columns = 0;
     const struct solver_record_field *field = find_scalar(record, name, &first, &columns);
     if (field == NULL) {
-        return solver_fail(error, SOLVER_BAD_INPUT,
-                           "view.field: the record has no scalar \"%s\"; a field of it is meant, as in pressure, "
-                           "von_mises, displacement, displacement_x, P_xy",
-                           name);
+        return refuse_field(record, name, error);
     }
     *unit = field->unit;
     for (size_t a = 0; a < record->count; a++) {

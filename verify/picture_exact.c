@@ -4,26 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static double determinant(const double F[9])
-{
-    return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
-}
-
-/* Cauchy stress P F^T / J. */
-static void cauchy(const struct oracle_state *state, double sigma[9])
-{
-    double J = determinant(state->F);
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            double sum = 0;
-            for (int k = 0; k < 3; k++) {
-                sum += state->P[3 * i + k] * state->F[3 * j + k];
-            }
-            sigma[3 * i + j] = sum / J;
-        }
-    }
-}
-
 static double mean_stress(const double s[9])
 {
     return (s[0] + s[4] + s[8]) / 3;
@@ -36,10 +16,11 @@ static double von_mises(const double s[9])
 }
 
 /* The exact values of a field by name into out; false for fields an oracle does not know. */
-static bool exact_value(const char *name, const struct oracle_state *state, double out[9])
+static bool exact_value(const char *name, const struct oracle_kind *kind, const struct oracle_state *state,
+                        double out[9])
 {
     double sigma[9];
-    cauchy(state, sigma);
+    oracle_cauchy(kind, state, sigma);
     if (strcmp(name, "displacement") == 0) {
         memcpy(out, state->u, sizeof state->u);
     } else if (strcmp(name, "velocity") == 0) {
@@ -48,8 +29,10 @@ static bool exact_value(const char *name, const struct oracle_state *state, doub
         memcpy(out, state->F, sizeof state->F);
     } else if (strcmp(name, "P") == 0) {
         memcpy(out, state->P, sizeof state->P);
+    } else if (strcmp(name, "sigma") == 0) {
+        memcpy(out, sigma, sizeof sigma);
     } else if (strcmp(name, "J") == 0) {
-        out[0] = determinant(state->F);
+        out[0] = oracle_jacobian(state);
     } else if (strcmp(name, "pressure") == 0) {
         out[0] = mean_stress(sigma);
     } else if (strcmp(name, "von_mises") == 0) {
@@ -67,7 +50,7 @@ static bool make_exact(const struct solver_record *record, struct solver_record_
         struct oracle_state state;
         double value[9] = {0};
         kind->state(oracle, record->X + 3 * a, record->time, &state);
-        if (!exact_value(field->name, &state, value)) {
+        if (!exact_value(field->name, kind, &state, value)) {
             return false;
         }
         memcpy(field->value + a * (size_t)field->width, value, (size_t)field->width * sizeof *value);

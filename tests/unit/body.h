@@ -18,6 +18,7 @@ struct body {
     struct solver_history history;
     double X[3 * BODY_MOST], V[BODY_MOST], u[3 * BODY_MOST], v[3 * BODY_MOST], p[3 * BODY_MOST];
     double F[9 * BODY_MOST], H[9 * BODY_MOST], J[BODY_MOST], P[9 * BODY_MOST];
+    double sigma[9 * BODY_MOST], sigma_normal[BODY_MOST];
     double pressure[BODY_MOST], von_mises[BODY_MOST], P_normal[BODY_MOST];
     uint32_t tags[BODY_MOST], cell[8 * BODY_MOST];
     struct solver_totals totals[BODY_ROWS];
@@ -57,6 +58,7 @@ static inline void body_particle(struct body *body, size_t a, size_t dim, const 
             body->F[(a * dim + i) * dim + j] = unit + G;
             body->H[(a * dim + i) * dim + j] = unit - G;
             body->P[(a * dim + i) * dim + j] = 1e6 * G;
+            body->sigma[(a * dim + i) * dim + j] = 5e5 * G;
             trace += unit * G;
         }
         body->v[a * dim + i] = 10.0 * body->u[a * dim + i] + 0.5;
@@ -66,6 +68,7 @@ static inline void body_particle(struct body *body, size_t a, size_t dim, const 
     body->pressure[a] = 1e6 * trace / 3.0;
     body->von_mises[a] = 2e6 * trace;
     body->P_normal[a] = 3e5 + (double)a;
+    body->sigma_normal[a] = 4e5 + (double)a;
     body->V[a] = 0.125 + 0.001 * (double)a;
     body->tags[a] = (uint32_t)(a % 64);
 }
@@ -138,6 +141,8 @@ static inline struct body *body_make(int dim)
                                           .J = body->J,
                                           .P = body->P,
                                           .P_normal = dim < 3 ? body->P_normal : NULL,
+                                          .sigma = body->sigma,
+                                          .sigma_normal = dim < 3 ? body->sigma_normal : NULL,
                                           .pressure = body->pressure,
                                           .von_mises = body->von_mises};
     return body;

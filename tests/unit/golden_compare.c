@@ -177,6 +177,42 @@ static void deviation_from_identity(void)
     pair_free(&pair);
 }
 
+static void drop_field(struct solver_record *record, const char *name)
+{
+    struct solver_record_field *last = &record->field[record->field_count], *field = record->field;
+    while (field < last && strcmp(field->name, name) != 0) {
+        field++;
+    }
+    CU_ASSERT_FATAL(field < last);
+    free(field->value);
+    memmove(field, field + 1, (size_t)(last - field - 1) * sizeof *field);
+    record->field_count--;
+}
+
+/* Of a scheme without F the distance of J from one is what counts, and the comparison is neither blind nor strict. */
+static void without_deformation(void)
+{
+    struct pair pair = pair_make();
+    drop_field(pair.a, "F");
+    refused(&pair, "no field F");
+    drop_field(pair.b, "F");
+    double *J = solver_record_find(pair.b, "J")->value, strain = 0.0;
+    const double was = J[4];
+    for (size_t a = 0; a < pair.b->count; a++) {
+        strain = fmax(strain, fabs(J[a] - 1.0));
+    }
+    CU_ASSERT(strain > 1e-3 && strain < 3e-2);
+    J[4] = was + 1e-10 * strain;
+    CU_ASSERT(!passes_both_ways(&pair));
+    J[4] = was + 1e-15;
+    CU_ASSERT(passes_both_ways(&pair));
+    J[4] = was;
+    double *sigma = solver_record_find(pair.b, "sigma")->value;
+    sigma[13] += 1e-10 * field_norm(pair.a, "sigma");
+    CU_ASSERT(!passes_both_ways(&pair));
+    pair_free(&pair);
+}
+
 static void every_column(void)
 {
     struct pair pair = pair_make();
@@ -376,6 +412,7 @@ int main(void)
         {"equal records", equal_records},
         {"every field in the tenth digit", every_field},
         {"F, H, J by their distance from identity", deviation_from_identity},
+        {"without a deformation gradient", without_deformation},
         {"every column in the tenth digit", every_column},
         {"NaN on both sides", not_a_number_on_both_sides},
         {"never blind", never_blind},

@@ -125,9 +125,10 @@ static void padding(void)
     struct solver_record *record = made(2);
     const double *F = solver_record_find(record, "F")->value, *P = solver_record_find(record, "P")->value;
     const double *H = solver_record_find(record, "H")->value, *u = solver_record_find(record, "displacement")->value;
-    const double *J = solver_record_find(record, "J")->value;
+    const double *J = solver_record_find(record, "J")->value, *sigma = solver_record_find(record, "sigma")->value;
     for (size_t a = 0; a < record->count; a++) {
         CU_ASSERT(F[9 * a + 8] == 1.0 && H[9 * a + 8] == J[a] && P[9 * a + 8] == 3e5 + (double)a);
+        CU_ASSERT(sigma[9 * a + 8] == 4e5 + (double)a && sigma[9 * a + 5] == 0.0);
         CU_ASSERT(F[9 * a + 2] == 0.0 && F[9 * a + 5] == 0.0 && F[9 * a + 6] == 0.0 && F[9 * a + 7] == 0.0);
         CU_ASSERT(u[3 * a + 2] == 0.0 && record->X[3 * a + 2] == 0.0);
         CU_ASSERT(fabs(F[9 * a + 1] - 3e-3 * (1.0 + 0.1 * record->X[3 * a])) < 1e-16);
@@ -148,6 +149,26 @@ static void cofactor_only_where_evolved(void)
     CU_ASSERT(solver_record_find(record, "H") == NULL && solver_record_find(record, "J") != NULL);
     solver_record_free(record);
     free(body);
+}
+
+/* A scheme without a deformation gradient: its fields are absent, and such a record is whole. */
+static void without_deformation(void)
+{
+    for (int dim = 1; dim <= 3; dim++) {
+        struct body *body = body_make(dim);
+        struct solver_record *record, *read = NULL;
+        struct solver_error error = {.text = ""};
+        body->output.F = body->output.H = body->output.P = body->output.P_normal = NULL;
+        CU_ASSERT_FATAL(body_record(body, &record, &error));
+        CU_ASSERT(solver_record_find(record, "F") == NULL && solver_record_find(record, "P") == NULL);
+        CU_ASSERT(solver_record_find(record, "H") == NULL && solver_record_find(record, "sigma") != NULL);
+        CU_ASSERT(solver_record_save(path, record, &error));
+        CU_ASSERT_FATAL(solver_record_read(path, &read, &error));
+        CU_ASSERT(same_record(record, read));
+        solver_record_free(record);
+        solver_record_free(read);
+        free(body);
+    }
 }
 
 static size_t find_column(const struct solver_record *record, const char *name)
@@ -346,6 +367,7 @@ int main(void)
         {"the same record gives the same bytes", same_bytes},
         {"padding below three dimensions", padding},
         {"the cofactor only where it is evolved", cofactor_only_where_evolved},
+        {"without a deformation gradient", without_deformation},
         {"columns of the history", history_columns},
         {"a record without history", no_history},
         {"a scene longer than an attribute", long_scene},

@@ -228,6 +228,13 @@ static void dimension_wrong(hid_t file)
     (void)H5Aclose(attribute);
 }
 
+static void tensor_too_narrow(hid_t file)
+{
+    static const char F[] = "/VTKHDF/PointData/F";
+    CU_ASSERT(H5Ldelete(file, F, H5P_DEFAULT) >= 0);
+    CU_ASSERT(H5Lcreate_hard(file, "/VTKHDF/PointData/displacement", file, F, H5P_DEFAULT, H5P_DEFAULT) >= 0);
+}
+
 static void forgeries(void)
 {
     static const struct {
@@ -248,6 +255,7 @@ static void forgeries(void)
         {overflowing, "Points: claims"},
         {no_unit, "unit: attribute missing"},
         {no_field, "J: field is missing"},
+        {tensor_too_narrow, "F: field has another width"},
         {no_history, "history: missing"},
         {no_version, "version: attribute missing"},
         {group_for_data, "J: "},

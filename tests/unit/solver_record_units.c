@@ -34,6 +34,7 @@ static void fields(void)
                                         {"displacement", "m"},
                                         {"momentum", "kg/(m^2 s)"},
                                         {"pressure", "Pa"},
+                                        {"sigma", "Pa"},
                                         {"tags", "-"},
                                         {"velocity", "m/s"},
                                         {"volume", volumes[dim]},

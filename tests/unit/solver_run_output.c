@@ -67,6 +67,12 @@ static void test_measures(void)
             CU_ASSERT_DOUBLE_EQUAL(output.J[a], J, 1e-15);
             for (size_t k = 0; k < dim * dim; k++) {
                 CU_ASSERT_DOUBLE_EQUAL(output.H[a * dim * dim + k], H[k / dim][k % dim], 1e-15);
+                CU_ASSERT_DOUBLE_EQUAL(output.sigma[a * dim * dim + k], s[k / dim][k % dim], 4e-15);
+            }
+            if (dim < 3) {
+                CU_ASSERT_DOUBLE_EQUAL(output.sigma_normal[a], s[2][2], 4e-15);
+            } else {
+                CU_ASSERT_PTR_NULL(output.sigma_normal);
             }
         }
         finish(&sample);
