@@ -133,6 +133,7 @@ struct solver_scene {
     double face_until[SOLVER_FACES];          /* [s] a moved face is free after this time; infinite otherwise */
     struct solver_probe probe[SOLVER_PROBES];
     size_t probe_count;
+    double probe_scale; /* [m] what the error "probes_nrmse" is relative to; 0 if not given */
 
     char oracle[SOLVER_NAME]; /* "" if the scene answers to none */
     size_t oracle_told_count; /* oracle.KEY = number: told to the oracle in place of the scene's own value */

@@ -82,6 +82,8 @@ X("faces.Z0", FACE, 4, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lowe
 X("faces.Z1", FACE, 5, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper Z face; default free")               \
 X("probes", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 { name = text, X = { ... } }",                     \
   "places whose motion is recorded over time")                                                                         \
+X("probe_scale", NUMBER, AT(probe_scale), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",                      \
+  "what the error probes_nrmse is relative to")                                                                        \
 X("oracle", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ name = text }; any number beside it is told to the oracle",       \
   "exact solution that the scene answers to")                                                                          \
 X("published", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ source = text, { n = ..., NAME = error, ... }, ... }",         \

@@ -8,9 +8,12 @@ import subprocess
 import sys
 
 TOP = {"scene", "oracle", "scheme", "stencil", "levels", "rates", "gates", "pass"}
-LEVEL = {"n", "h", "particles", "steps", "seconds", "ns_per_particle_step", "errors"}
+LEVEL = {"n", "h", "particles", "steps", "seconds", "ns_per_particle_step", "errors", "snapshots"}
+SNAPSHOT = {"t", "errors"}
 GATE = {"name", "value", "bound", "op", "pass"}
-ERRORS = {f + e for f in ("p", "P", "P_all", "u", "F", "probes") for e in ("", "_abs", "_max", "_abs_max", "_l1")}
+STATE = {f + e for f in ("p", "P", "P_all", "u", "F") for e in ("", "_abs", "_max", "_abs_max", "_l1")}
+PROBES = {"probes" + e for e in ("", "_abs", "_max", "_abs_max", "_l1")}
+ERRORS = STATE | PROBES
 
 
 def demand(condition, what):
@@ -22,13 +25,26 @@ def is_number(value):
     return type(value) in (int, float) and math.isfinite(value)
 
 
+def check_snapshots(level):
+    times = [snapshot["t"] for snapshot in level["snapshots"]]
+    demand(times == sorted(set(times)), f"snapshots at {times}")
+    for snapshot in level["snapshots"]:
+        demand(set(snapshot) == SNAPSHOT, f"keys of a snapshot: {sorted(snapshot)}")
+        demand(set(snapshot["errors"]) == STATE, f"errors of a snapshot: {sorted(snapshot['errors'])}")
+    for name in STATE if times else ():
+        worst = max(snapshot["errors"][name] for snapshot in level["snapshots"])
+        demand(level["errors"]["snapshots_" + name] == worst, f"snapshots_{name} is not {worst}")
+
+
 def check_level(level):
     demand(set(level) == LEVEL, f"keys of a level: {sorted(level)}")
     for key in ("n", "particles", "steps"):
         demand(type(level[key]) is int and level[key] > 0, f"level {key} = {level[key]}")
     for key in ("h", "seconds", "ns_per_particle_step"):
         demand(is_number(level[key]) and level[key] >= 0, f"level {key} = {level[key]}")
-    demand(set(level["errors"]) == ERRORS, f"names of errors: {sorted(level['errors'])}")
+    names = ERRORS | {"snapshots_" + name for name in STATE if level["snapshots"]}
+    demand(set(level["errors"]) == names, f"names of errors: {sorted(level['errors'])}")
+    check_snapshots(level)
     for name, value in level["errors"].items():
         demand(is_number(value) and value > 0, f"error {name} = {value}")
     per_step = 1e9 * level["seconds"] / (level["particles"] * level["steps"])
@@ -53,7 +69,7 @@ def check(study, code):
     for level in study["levels"]:
         check_level(level)
     coarse, fine = study["levels"][-2:]
-    demand(set(study["rates"]) == ERRORS, "names of rates")
+    demand(set(study["rates"]) == set(fine["errors"]), "names of rates")
     for name, rate in study["rates"].items():
         order = math.log(coarse["errors"][name] / fine["errors"][name]) / math.log(coarse["h"] / fine["h"])
         demand(is_number(rate) and math.isclose(rate, order, abs_tol=1e-9), f"rate {name} = {rate}, not {order}")

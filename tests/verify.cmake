@@ -76,6 +76,8 @@ set_tests_properties(golden-notices golden-shows PROPERTIES FIXTURES_REQUIRED "p
 # The JSON report and its checker, on a study that passes or fails and on one that must fail.
 assay_test(json-shape LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py ${assay}
   test-out/json-shape swinging-cube)
+assay_test(json-shape-snapshots LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py
+  ${assay} test-out/json-snapshots swinging-cube --levels 8,12 --set snapshots={5e-4,1e-3})
 assay_test(json-shape-mismatch LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py
   ${assay} test-out/json-mismatch swinging-cube --levels 8,12 --set oracle.U0=5.05e-4)
 

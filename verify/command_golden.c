@@ -17,7 +17,7 @@ static bool make(const struct verify_options *options, struct solver_scene *scen
     struct solver_run *run = NULL;
     struct solver_record *record = NULL;
     if (!verify_path_join(picture, folder, stem, ".png", error) ||
-        !verify_simulate(scene, folder, options->line, &run, error)) {
+        !verify_simulate(scene, folder, options->line, NULL, NULL, &run, error)) {
         return false;
     }
     bool done = verify_record(scene, run, folder, stem, options->line, record_path, error) &&

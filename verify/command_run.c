@@ -44,7 +44,7 @@ static bool run_scene(struct solver_scene *scene, const struct verify_options *o
     char folder[VERIFY_PATH];
     struct solver_run *run = NULL;
     if (!verify_out_folder(options, scene->name, folder, error) ||
-        !verify_simulate(scene, folder, options->line, &run, error)) {
+        !verify_simulate(scene, folder, options->line, NULL, NULL, &run, error)) {
         return false;
     }
     const struct solver_facts facts = solver_run_facts(run);

@@ -17,6 +17,7 @@ struct work {
     char folder[VERIFY_PATH];
     size_t level_count;
     int level[SOLVER_LEVELS];
+    struct verify_level level_now; /* the one that is run */
     size_t shown_count;
     size_t shown[VERIFY_ERRORS];
 };
@@ -65,31 +66,51 @@ static bool draw(struct work *work, struct solver_error *error)
     return done;
 }
 
+/* A verify_take. */
+static bool take(void *context, struct solver_run *run, struct solver_error *error)
+{
+    struct work *work = context;
+    return verify_level_snapshot(&work->level_now, run, work->truth.kind, work->truth.oracle, error);
+}
+
+/* Errors of a finished run. */
+static bool measure(struct work *work, struct solver_run *run, struct solver_error *error)
+{
+    const struct verify_truth *truth = &work->truth;
+    struct verify_level *level = &work->level_now;
+    struct solver_output output;
+    level->facts = solver_run_facts(run);
+    return solver_run_output(run, &output, error) &&
+           verify_norms_state(&output, truth->kind, truth->oracle, level->error, error) &&
+           verify_norms_probes(solver_run_history(run), truth->kind, truth->oracle, work->scene->probe_scale,
+                               level->error, error);
+}
+
+/* What is kept of the finest level alone. */
+static bool keep_finest(struct work *work, struct solver_run *run, struct solver_error *error)
+{
+    const struct solver_scene *scene = work->scene;
+    const struct solver_history *history = solver_run_history(run);
+    work->study.first = history->totals[0];
+    work->study.last = history->totals[history->count - 1];
+    return verify_study_trace(&work->study, history, error) &&
+           verify_record(scene, run, work->folder, scene->name, work->options->line, work->study.record, error) &&
+           draw(work, error);
+}
+
 /* Runs one level and adds it to the study; keeps record and pictures of the finest. */
 static bool run_level(struct work *work, size_t index, struct solver_error *error)
 {
-    struct solver_scene *scene = work->scene;
-    struct verify_level level = {.n = work->level[index]};
     struct solver_run *run = NULL;
-    struct solver_output output;
-    if (!verify_simulate(scene, work->folder, work->options->line, &run, error)) {
-        return false;
-    }
-    level.facts = solver_run_facts(run);
-    bool done = solver_run_output(run, &output, error) &&
-                verify_norms_measure(&output, solver_run_history(run), work->truth.kind, work->truth.oracle,
-                                     level.error, error);
+    work->level_now = (struct verify_level){.n = work->level[index]};
+    bool done = verify_simulate(work->scene, work->folder, work->options->line, take, work, &run, error) &&
+                measure(work, run, error);
     if (done) {
-        verify_study_add(&work->study, &level);
+        verify_study_add(&work->study, &work->level_now);
         verify_terminal_level(stdout, &work->study, work->shown, work->shown_count);
-    }
-    if (done && index + 1 == work->level_count) {
-        const struct solver_history *history = solver_run_history(run);
-        work->study.first = history->totals[0];
-        work->study.last = history->totals[history->count - 1];
-        done = verify_study_trace(&work->study, history, error) &&
-               verify_record(scene, run, work->folder, scene->name, work->options->line, work->study.record, error) &&
-               draw(work, error);
+        done = index + 1 < work->level_count || keep_finest(work, run, error);
+    } else {
+        verify_level_free(&work->level_now);
     }
     solver_run_free(run);
     return done;
@@ -181,9 +202,13 @@ static bool study(struct work *work, bool *passed, struct solver_error *error)
     }
     work->study.truth = &work->truth;
     work->shown_count = verify_shown(work->scene, work->shown, error);
-    if (work->shown_count == 0 || !verify_out_folder(work->options, work->scene->name, work->folder, error)) {
+    /* the gates by what is measured so far, nothing: one that names what there is not is refused before the first run
+     */
+    if (work->shown_count == 0 || !verify_gates_judge(work->scene, &work->level_now, &work->study.gates, error) ||
+        !verify_out_folder(work->options, work->scene->name, work->folder, error)) {
         return false;
     }
+    work->study.gates = (struct verify_gates){.count = 0};
     verify_terminal_begin(stdout, &work->study, work->shown, work->shown_count);
     if (work->truth.proven) {
         if (!run_levels(work, error)) {

@@ -39,31 +39,23 @@ static bool holds(const struct solver_scene *scene, size_t index, bool *met, str
 }
 
 static bool judge_bound(const struct solver_scene *scene, size_t index, const struct solver_named *bound,
-                        const double error[VERIFY_ERRORS], const double rate[VERIFY_ERRORS], struct verify_gate *gate,
-                        struct solver_error *why)
+                        const struct verify_level *finest, struct verify_gate *gate, struct solver_error *why)
 {
-    static const char prefix[] = "rate ";
-    bool is_rate = strncmp(bound->name, prefix, sizeof prefix - 1) == 0;
-    size_t which = verify_error_find(bound->name + (is_rate ? sizeof prefix - 1 : 0));
-    if (which == VERIFY_ERRORS) {
-        return solver_fail(why, SOLVER_BAD_INPUT,
-                           "%s: gates[%zu]: there is no error called \"%s\"; there are p, P, P_all, u, F, each also "
-                           "with _abs, _max or _abs_max, and \"rate \" before any of them",
-                           scene->path, index + 1, bound->name);
+    char where[SOLVER_TEXT];
+    struct verify_value measured;
+    (void)snprintf(where, sizeof where, "%.400s: gates[%zu]", scene->path, index + 1);
+    if (!verify_level_value(scene, finest, bound->name, where, &measured, why)) {
+        return false;
     }
-    *gate = (struct verify_gate){
-        .value = is_rate ? rate[which] : error[which],
-        .bound = bound->value,
-        .op = is_rate ? ">=" : "<=",
-        .unit = is_rate ? "-" : verify_error_unit(which),
-    };
+    *gate =
+        (struct verify_gate){.value = measured.value, .bound = bound->value, .op = measured.op, .unit = measured.unit};
     (void)snprintf(gate->name, sizeof gate->name, "%s", bound->name);
     gate->pass = verify_gate_judge(gate->value, gate->op, gate->bound);
     return true;
 }
 
-bool verify_gates_judge(const struct solver_scene *scene, const double error[VERIFY_ERRORS],
-                        const double rate[VERIFY_ERRORS], struct verify_gates *gates, struct solver_error *why)
+bool verify_gates_judge(const struct solver_scene *scene, const struct verify_level *finest, struct verify_gates *gates,
+                        struct solver_error *why)
 {
     bool met[SOLVER_GATES] = {false}, any_with_conditions = false;
     for (size_t i = 0; i < scene->gate_count; i++) {
@@ -78,7 +70,7 @@ bool verify_gates_judge(const struct solver_scene *scene, const double error[VER
     for (size_t i = 0; i < scene->gate_count; i++) {
         for (size_t j = 0; j < scene->gate[i].bounds; j++) {
             struct verify_gate gate = {.pass = false};
-            if (!judge_bound(scene, i, &scene->gate[i].bound[j], error, rate, &gate, why)) {
+            if (!judge_bound(scene, i, &scene->gate[i].bound[j], finest, &gate, why)) {
                 return false;
             }
             if (met[i] && !(any_with_conditions && scene->gate[i].conditions == 0)) {

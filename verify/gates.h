@@ -3,7 +3,7 @@
 #define VERIFY_GATES_H
 
 #include "solver/scene.h"
-#include "verify/norms.h"
+#include "verify/level.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -30,10 +30,10 @@ struct verify_gates {
  * measurement. */
 bool verify_gate_judge(double value, const char *op, double bound);
 
-/* Judges the rules that hold for the scene's configuration: all whose conditions it meets or, where none of those has
- * conditions, the rules without. error: at the finest level; rate: between the two finest (NaN with one level).
- * Fails (SOLVER_BAD_INPUT) on a rule that names no key of the scene or no error. */
-bool verify_gates_judge(const struct solver_scene *scene, const double error[VERIFY_ERRORS],
-                        const double rate[VERIFY_ERRORS], struct verify_gates *gates, struct solver_error *why);
+/* Judges the rules that hold for the scene's configuration by what was measured at the finest level: all whose
+ * conditions it meets or, where none of those has conditions, the rules without.
+ * Fails (SOLVER_BAD_INPUT) on a rule that names no key of the scene or nothing that is measured. */
+bool verify_gates_judge(const struct solver_scene *scene, const struct verify_level *finest, struct verify_gates *gates,
+                        struct solver_error *why);
 
 #endif

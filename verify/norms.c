@@ -4,25 +4,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Field by field, in the order of keep() below. */
-#define NAMES(field) field, field "_abs", field "_max", field "_abs_max", field "_l1"
-#define UNITS(unit)  "-", unit, "-", unit, "-"
-#define MEANINGS(field)                                                                                                \
-    "relative L2 error of the " field, "absolute L2 error of the " field, "relative max error of the " field,          \
-        "absolute max error of the " field, "relative L1 error of the " field
+/* In the order of enum verify_field: name, unit, meaning. */
+#define OF_STATE(ROW)                                                                                                  \
+    ROW("p", "kg/(m^2 s)", "linear momentum, all components")                                                          \
+    ROW("P", "Pa", "first Piola-Kirchhoff stress, normal components")                                                  \
+    ROW("P_all", "Pa", "first Piola-Kirchhoff stress, all components")                                                 \
+    ROW("u", "m", "displacement, all components")                                                                      \
+    ROW("F", "-", "deformation gradient less the identity, all components")
+#define OF_PROBES(ROW) ROW("probes", "m", "displacement at the probes over time, all components")
 
-static const char *const name_table[VERIFY_ERRORS] = {NAMES("p"), NAMES("P"), NAMES("P_all"),
-                                                      NAMES("u"), NAMES("F"), NAMES("probes")};
-static const char *const unit_table[VERIFY_ERRORS] = {UNITS("kg/(m^2 s)"), UNITS("Pa"), UNITS("Pa"),
-                                                      UNITS("m"),          UNITS("-"),  UNITS("m")};
-static const char *const meaning_table[VERIFY_ERRORS] = {
-    MEANINGS("linear momentum, all components"),
-    MEANINGS("first Piola-Kirchhoff stress, normal components"),
-    MEANINGS("first Piola-Kirchhoff stress, all components"),
-    MEANINGS("displacement, all components"),
-    MEANINGS("deformation gradient less the identity, all components"),
-    MEANINGS("displacement at the probes over time, all components"),
-};
+/* Norm by norm, in the order of keep() below. */
+#define NAMES(field, unit, meaning) field, field "_abs", field "_max", field "_abs_max", field "_l1",
+#define UNITS(field, unit, meaning) "-", unit, "-", unit, "-",
+#define MEANINGS(field, unit, meaning)                                                                                 \
+    "relative L2 error of the " meaning, "absolute L2 error of the " meaning, "relative max error of the " meaning,    \
+        "absolute max error of the " meaning, "relative L1 error of the " meaning,
+#define SNAPSHOT_NAMES(field, unit, meaning)    NAMES("snapshots_" field, unit, meaning)
+#define SNAPSHOT_MEANINGS(field, unit, meaning) MEANINGS(field, unit, meaning ", largest over the snapshots")
+
+static const char *const name_table[] = {OF_STATE(NAMES) OF_PROBES(NAMES) OF_STATE(SNAPSHOT_NAMES) "probes_nrmse"};
+static const char *const unit_table[] = {OF_STATE(UNITS) OF_PROBES(UNITS) OF_STATE(UNITS) "-"};
+static const char *const meaning_table[] = {OF_STATE(MEANINGS) OF_PROBES(MEANINGS) OF_STATE(
+    SNAPSHOT_MEANINGS) "root mean square error at the probes over the scene's probe_scale"};
+_Static_assert(sizeof name_table == VERIFY_ERRORS * sizeof *name_table, "one name per error");
+_Static_assert(sizeof unit_table == VERIFY_ERRORS * sizeof *unit_table, "one unit per error");
+_Static_assert(sizeof meaning_table == VERIFY_ERRORS * sizeof *meaning_table, "one meaning per error");
+
+const char verify_error_names[] =
+    "p, P, P_all, u, F, probes, each also with _abs, _max, _abs_max or _l1, all but probes also with snapshots_ before "
+    "it, and probes_nrmse";
 
 /* Unlike fmax, keeps a NaN. */
 static double larger(double a, double b)
@@ -82,6 +92,17 @@ size_t verify_error_find(const char *name)
     return error;
 }
 
+bool verify_error_applies(const struct solver_scene *scene, size_t error, const char **lacks)
+{
+    bool of_snapshots = error >= VERIFY_SNAPSHOT_ERRORS && error < VERIFY_PROBES_NRMSE;
+    bool of_probes = !of_snapshots && error >= VERIFY_STATE_ERRORS;
+    *lacks = of_snapshots && scene->snapshot_count == 0                  ? "snapshots"
+             : of_probes && scene->probe_count == 0                      ? "probes"
+             : error == VERIFY_PROBES_NRMSE && !(scene->probe_scale > 0) ? "probe_scale"
+                                                                         : NULL;
+    return *lacks == NULL;
+}
+
 static size_t field_width(enum verify_field field, size_t dim)
 {
     return field == VERIFY_P_ALL || field == VERIFY_F ? dim * dim : dim;
@@ -120,7 +141,7 @@ static struct verify_norms measure(enum verify_field field, const struct solver_
     return verify_norms_field(output->cloud->count, width, output->V, computed, exact);
 }
 
-static void keep(double error[VERIFY_ERRORS], enum verify_field field, struct verify_norms norms)
+static void keep(double *error, enum verify_field field, struct verify_norms norms)
 {
     double *out = error + (size_t)VERIFY_NORMS * (size_t)field;
     out[0] = norms.relative_l2;
@@ -131,17 +152,20 @@ static void keep(double error[VERIFY_ERRORS], enum verify_field field, struct ve
 }
 
 /* Rows of the history times probes, each a point in time and place. */
-static bool measure_probes(const struct solver_history *history, const struct oracle_kind *kind,
-                           const struct oracle *oracle, double error[VERIFY_ERRORS])
+bool verify_norms_probes(const struct solver_history *history, const struct oracle_kind *kind,
+                         const struct oracle *oracle, double scale, double error[VERIFY_ERRORS],
+                         struct solver_error *why)
 {
     size_t count = history->count * history->probe_count;
+    error[VERIFY_PROBES_NRMSE] = NAN;
     if (count == 0) {
         keep(error, VERIFY_PROBES, (struct verify_norms){NAN, NAN, NAN, NAN, NAN});
         return true;
     }
     double *exact = calloc(count, 4 * sizeof *exact);
     if (exact == NULL) {
-        return false;
+        return solver_fail(why, SOLVER_NO_MEMORY, "no memory to compare %zu rows of history with the oracle",
+                           history->count);
     }
     double *weight = exact + 3 * count;
     for (size_t i = 0; i < count; i++) {
@@ -151,41 +175,40 @@ static bool measure_probes(const struct solver_history *history, const struct or
         memcpy(exact + 3 * i, state.u, sizeof state.u);
         weight[i] = 1.0;
     }
-    keep(error, VERIFY_PROBES, verify_norms_field(count, 3, weight, history->probe_u, exact));
+    struct verify_norms norms = verify_norms_field(count, 3, weight, history->probe_u, exact);
+    keep(error, VERIFY_PROBES, norms);
+    error[VERIFY_PROBES_NRMSE] = scale > 0 ? norms.absolute_l2 / scale : NAN;
     free(exact);
     return true;
 }
 
-static void measure_all(const struct solver_output *output, const struct oracle_kind *kind, const struct oracle *oracle,
-                        struct oracle_state *state, double *computed, double *exact, double error[VERIFY_ERRORS])
+bool verify_norms_state(const struct solver_output *output, const struct oracle_kind *kind, const struct oracle *oracle,
+                        double error[VERIFY_STATE_ERRORS], struct solver_error *why)
 {
-    size_t dim = (size_t)output->cloud->dim;
-    for (size_t a = 0; a < output->cloud->count; a++) {
+    size_t count = output->cloud->count, dim = (size_t)output->cloud->dim;
+    struct oracle_state *state = calloc(count, sizeof *state);
+    double *computed = calloc(count, 9 * sizeof *computed);
+    double *exact = calloc(count, 9 * sizeof *exact);
+    bool done = state != NULL && computed != NULL && exact != NULL;
+    for (size_t a = 0; done && a < count; a++) {
         double X[3] = {0, 0, 0};
         memcpy(X, output->cloud->X + a * dim, dim * sizeof *X);
         kind->state(oracle, X, output->time, &state[a]);
     }
-    for (size_t field = 0; field < VERIFY_PROBES; field++) {
+    for (size_t field = 0; done && field < VERIFY_STATE_FIELDS; field++) {
         keep(error, (enum verify_field)field, measure((enum verify_field)field, output, state, computed, exact));
-    }
-}
-
-bool verify_norms_measure(const struct solver_output *output, const struct solver_history *history,
-                          const struct oracle_kind *kind, const struct oracle *oracle, double error[VERIFY_ERRORS],
-                          struct solver_error *why)
-{
-    size_t count = output->cloud->count;
-    struct oracle_state *state = calloc(count, sizeof *state);
-    double *computed = calloc(count, 9 * sizeof *computed);
-    double *exact = calloc(count, 9 * sizeof *exact);
-    bool done = state != NULL && computed != NULL && exact != NULL && measure_probes(history, kind, oracle, error);
-    if (done) {
-        measure_all(output, kind, oracle, state, computed, exact, error);
-    } else {
-        (void)solver_fail(why, SOLVER_NO_MEMORY, "no memory to compare %zu particles with the oracle", count);
     }
     free(state);
     free(computed);
     free(exact);
-    return done;
+    return done || solver_fail(why, SOLVER_NO_MEMORY, "no memory to compare %zu particles with the oracle", count);
+}
+
+void verify_norms_worst(size_t snapshots_before, const double of_snapshot[VERIFY_STATE_ERRORS],
+                        double error[VERIFY_ERRORS])
+{
+    double *worst = error + VERIFY_SNAPSHOT_ERRORS;
+    for (size_t i = 0; i < VERIFY_STATE_ERRORS; i++) {
+        worst[i] = snapshots_before == 0 ? of_snapshot[i] : larger(worst[i], of_snapshot[i]);
+    }
 }

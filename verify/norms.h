@@ -36,12 +36,20 @@ enum verify_field {
     VERIFY_F,      /* F - I, all components: the deviation, since |F| itself is 1 and hides it */
     VERIFY_PROBES, /* displacement at the probes, all components; sums over rows of the time history instead of
                       particles, each with weight 1, so that "probes_abs" is the root mean square error over time */
-    VERIFY_FIELDS
+    VERIFY_FIELDS,
+    VERIFY_STATE_FIELDS = VERIFY_PROBES /* those of a state at one time */
 };
 
 /* Errors have names: "p", "P", "P_all", "u", "F", "probes" are relative L2 norms; with "_abs" absolute L2, with "_max"
- * relative max, with "_abs_max" absolute max, with "_l1" relative L1. */
-enum { VERIFY_NORMS = 5, VERIFY_ERRORS = VERIFY_NORMS * VERIFY_FIELDS };
+ * relative max, with "_abs_max" absolute max, with "_l1" relative L1. With "snapshots_" before the name of a state's
+ * error, the largest of it over the scene's snapshots. "probes_nrmse" is probes_abs over the scene's probe_scale. */
+enum {
+    VERIFY_NORMS = 5,
+    VERIFY_STATE_ERRORS = VERIFY_NORMS * VERIFY_STATE_FIELDS, /* these come first */
+    VERIFY_SNAPSHOT_ERRORS = VERIFY_NORMS * VERIFY_FIELDS,    /* where those of the snapshots begin */
+    VERIFY_PROBES_NRMSE = VERIFY_SNAPSHOT_ERRORS + VERIFY_STATE_ERRORS,
+    VERIFY_ERRORS
+};
 
 const char *verify_error_name(size_t error);
 /* "-" for relative norms, the field's unit for absolute ones. */
@@ -50,11 +58,20 @@ const char *verify_error_unit(size_t error);
 const char *verify_error_meaning(size_t error);
 /* VERIFY_ERRORS if there is none of that name. */
 size_t verify_error_find(const char *name);
+/* What names there are, for messages. */
+extern const char verify_error_names[];
+/* Whether the scene has what the error is of; if not, *lacks says what is missing: "snapshots". */
+bool verify_error_applies(const struct solver_scene *scene, size_t error, const char **lacks);
 
-/* All errors of a run against an oracle: of the present state at its time, and of the history; without probes those of
- * the probes are NaN. False if there is no memory. */
-bool verify_norms_measure(const struct solver_output *output, const struct solver_history *history,
-                          const struct oracle_kind *kind, const struct oracle *oracle, double error[VERIFY_ERRORS],
-                          struct solver_error *why);
+/* Errors of the present state against an oracle at its time. False if there is no memory. */
+bool verify_norms_state(const struct solver_output *output, const struct oracle_kind *kind, const struct oracle *oracle,
+                        double error[VERIFY_STATE_ERRORS], struct solver_error *why);
+/* Those of the history's probes; NaN without probes. `scale` [m] is what probes_nrmse is relative to. */
+bool verify_norms_probes(const struct solver_history *history, const struct oracle_kind *kind,
+                         const struct oracle *oracle, double scale, double error[VERIFY_ERRORS],
+                         struct solver_error *why);
+/* Takes one more snapshot's errors into those over all of them; the first comes upon NaN. */
+void verify_norms_worst(size_t snapshots_before, const double of_snapshot[VERIFY_STATE_ERRORS],
+                        double error[VERIFY_ERRORS]);
 
 #endif

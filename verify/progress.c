@@ -11,26 +11,27 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-void verify_progress_begin(struct verify_progress *progress, const char *label)
+void verify_progress_begin(struct verify_progress *progress, const char *label, double t_end)
 {
     double begun = now();
-    *progress =
-        (struct verify_progress){.label = label, .on = isatty(STDERR_FILENO) == 1, .begun = begun, .shown = begun};
+    *progress = (struct verify_progress){
+        .label = label, .t_end = t_end, .on = isatty(STDERR_FILENO) == 1, .begun = begun, .shown = begun};
     if (progress->on) {
         (void)fprintf(stderr, "\r\033[K%s: setting up", label);
     }
 }
 
-bool verify_progress_show(void *context, double time, double t_end, size_t step)
+bool verify_progress_show(void *context, double time, double stop, size_t step)
 {
+    (void)stop;
     static const char full[] = "##############################", empty[] = "..............................";
     struct verify_progress *progress = context;
     double at = now();
-    if (!progress->on || at - progress->shown < 0.1 || !(t_end > 0)) {
+    if (!progress->on || at - progress->shown < 0.1 || !(progress->t_end > 0)) {
         return true;
     }
     progress->shown = at;
-    double fraction = time / t_end;
+    double fraction = time / progress->t_end;
     fraction = fraction < 0 ? 0 : fraction > 1 ? 1 : fraction;
     int width = (int)(sizeof full - 1), filled = (int)(fraction * width);
     (void)fprintf(stderr, "\r\033[K%s: [%.*s%.*s] %3.0f %%, step %zu, t = %.3g s", progress->label, filled, full,

@@ -7,11 +7,12 @@
 
 struct verify_progress {
     const char *label;   /* "swinging-cube, n = 24" */
+    double t_end;        /* [s] of the whole run, whatever part of it is under way */
     bool on;             /* standard error is a terminal */
     double begun, shown; /* [s] on the monotonic clock; shown: when the line was last written */
 };
 
-void verify_progress_begin(struct verify_progress *progress, const char *label);
+void verify_progress_begin(struct verify_progress *progress, const char *label, double t_end);
 /* A solver_progress: context is the struct verify_progress. Never stops the run. */
 bool verify_progress_show(void *context, double time, double t_end, size_t step);
 /* Clears the line. */

@@ -170,6 +170,29 @@ static void levels(FILE *file, const struct verify_study *study, const size_t *s
     }
 }
 
+/* The errors that have a column of their largest over the snapshots, snapshot by snapshot. */
+static void snapshots(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+{
+    const struct verify_level *level = &study->level[study->level_count - 1];
+    size_t of_state[VERIFY_STATE_ERRORS], count = verify_shown_snapshots(shown, shown_count, of_state);
+    if (count == 0) {
+        return;
+    }
+    (void)fprintf(file, "<h2>Errors at the snapshots, finest level</h2><table><tr><th>t [s]</th>");
+    for (size_t i = 0; i < count; i++) {
+        (void)fprintf(file, "<th>%s [%s]</th>", verify_error_name(of_state[i]), verify_error_unit(of_state[i]));
+    }
+    (void)fprintf(file, "</tr>\n");
+    for (size_t i = 0; i < level->snapshot_count; i++) {
+        (void)fprintf(file, "<tr><td>%.6g</td>", level->snapshot[i].time);
+        for (size_t j = 0; j < count; j++) {
+            cell(file, "e", level->snapshot[i].error[of_state[j]]);
+        }
+        (void)fprintf(file, "</tr>\n");
+    }
+    (void)fprintf(file, "</table>\n");
+}
+
 static void gates(FILE *file, const struct verify_gates *judged)
 {
     (void)fprintf(file, "<h2>Gates</h2>\n");
@@ -271,6 +294,7 @@ bool verify_html(FILE *file, const struct verify_study *study, const size_t *sho
     head(file, study);
     if (study->level_count > 0) {
         levels(file, study, shown, shown_count);
+        snapshots(file, study, shown, shown_count);
         (void)fprintf(file, "<h2>Convergence</h2><div class=\"row\">\n");
         for (size_t i = 0; i < shown_count; i++) {
             verify_plot(file, study, shown[i]);

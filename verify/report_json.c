@@ -63,17 +63,36 @@ static void number_member(FILE *file, const char *key, double value)
     number(file, value);
 }
 
-/* {NAME: value} over all errors. */
-static void errors(FILE *file, const double value[VERIFY_ERRORS])
+/* {NAME: value} over the first `count` errors, of which only those that the scene can have. */
+static void errors(FILE *file, const struct solver_scene *scene, size_t count, const double *value)
 {
-    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
-        (void)fputs(i == 0 ? "{" : ", ", file);
-        number_member(file, verify_error_name(i), value[i]);
+    const char *lacks = NULL;
+    const char *between = "";
+    (void)fputc('{', file);
+    for (size_t i = 0; i < count; i++) {
+        if (verify_error_applies(scene, i, &lacks)) {
+            (void)fputs(between, file);
+            number_member(file, verify_error_name(i), value[i]);
+            between = ", ";
+        }
     }
     (void)fputc('}', file);
 }
 
-static void level_object(FILE *file, const struct verify_level *level)
+static void snapshots(FILE *file, const struct solver_scene *scene, const struct verify_level *level)
+{
+    (void)fputs(", \"snapshots\": [", file);
+    for (size_t i = 0; i < level->snapshot_count; i++) {
+        (void)fputs(i == 0 ? "{" : ", {", file);
+        number_member(file, "t", level->snapshot[i].time);
+        (void)fputs(", \"errors\": ", file);
+        errors(file, scene, VERIFY_STATE_ERRORS, level->snapshot[i].error);
+        (void)fputc('}', file);
+    }
+    (void)fputc(']', file);
+}
+
+static void level_object(FILE *file, const struct solver_scene *scene, const struct verify_level *level)
 {
     (void)fprintf(file, "{\"n\": %d, ", level->n);
     number_member(file, "h", level->facts.spacing);
@@ -82,7 +101,8 @@ static void level_object(FILE *file, const struct verify_level *level)
     (void)fputs(", ", file);
     number_member(file, "ns_per_particle_step", level->ns_per_particle_step);
     (void)fputs(", \"errors\": ", file);
-    errors(file, level->error);
+    errors(file, scene, VERIFY_ERRORS, level->error);
+    snapshots(file, scene, level);
     (void)fputc('}', file);
 }
 
@@ -132,11 +152,11 @@ void verify_json(FILE *file, const struct verify_study *study)
     (void)fputs(",\n  \"levels\": [", file);
     for (size_t i = 0; i < study->level_count; i++) {
         (void)fputs(i == 0 ? "\n    " : ",\n    ", file);
-        level_object(file, &study->level[i]);
+        level_object(file, study->scene, &study->level[i]);
     }
     (void)fputs("],\n  \"rates\": ", file);
     if (study->level_count > 1) {
-        errors(file, study->level[study->level_count - 1].rate);
+        errors(file, study->scene, VERIFY_ERRORS, study->level[study->level_count - 1].rate);
     } else {
         (void)fputs("{}", file); /* one level has no order */
     }

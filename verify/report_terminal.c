@@ -19,6 +19,13 @@ static const char *order(char text[32], double value)
     return text;
 }
 
+/* Characters of the column of an error. */
+static int width_of(size_t error)
+{
+    int length = (int)strlen(verify_error_name(error));
+    return length > 10 ? length : 10;
+}
+
 static void print_truth(FILE *file, const struct verify_truth *truth)
 {
     (void)fprintf(file, "\noracle     %s: %s\n           source: %s\n", truth->kind->name, truth->kind->summary,
@@ -77,12 +84,12 @@ void verify_terminal_begin(FILE *file, const struct verify_study *study, const s
     print_published_head(file, scene);
     (void)fprintf(file, "\n%5s %10s %9s %6s %8s %10s", "n", "h", "particles", "steps", "time", "ns per");
     for (size_t i = 0; i < shown_count; i++) {
-        (void)fprintf(file, " | %-10s %5s %10s", verify_error_name(shown[i]), "order", "published");
+        (void)fprintf(file, " | %-*s %5s %10s", width_of(shown[i]), verify_error_name(shown[i]), "order", "published");
     }
     (void)fprintf(file, "\n%5s %10s %9s %6s %8s %10s", "", "[m]", "", "", "[s]", "part.-step");
     for (size_t i = 0; i < shown_count; i++) {
         (void)fprintf(file, " | [%s]%*s %5s %10s", verify_error_unit(shown[i]),
-                      (int)(8 - strlen(verify_error_unit(shown[i]))), "", "", "");
+                      width_of(shown[i]) - 2 - (int)strlen(verify_error_unit(shown[i])), "", "", "");
     }
     (void)fprintf(file, "\n");
     (void)fflush(file);
@@ -96,7 +103,7 @@ void verify_terminal_level(FILE *file, const struct verify_study *study, const s
     for (size_t i = 0; i < shown_count; i++) {
         char measured[32], rate[32], published[32];
         double printed = verify_published(study->scene, level->n, verify_error_name(shown[i]));
-        (void)fprintf(file, " | %-10s %5s %10s", scientific(measured, level->error[shown[i]]),
+        (void)fprintf(file, " | %-*s %5s %10s", width_of(shown[i]), scientific(measured, level->error[shown[i]]),
                       order(rate, level->rate[shown[i]]), scientific(published, printed));
     }
     (void)fprintf(file, "\n");
@@ -119,6 +126,28 @@ static void print_orders(FILE *file, const struct verify_study *study, const siz
                                         verify_published(study->scene, fine->n, name), 1.0 / fine->n);
         if (!isnan(published)) {
             (void)fprintf(file, " (published %.2f)", published);
+        }
+    }
+    (void)fprintf(file, "\n");
+}
+
+/* The errors that have a column of their largest over the snapshots, snapshot by snapshot. */
+static void print_snapshots(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+{
+    const struct verify_level *level = &study->level[study->level_count - 1];
+    size_t of_state[VERIFY_STATE_ERRORS], count = verify_shown_snapshots(shown, shown_count, of_state);
+    if (count == 0) {
+        return;
+    }
+    (void)fprintf(file, "\nsnapshots at the finest level:\n  %12s", "t [s]");
+    for (size_t i = 0; i < count; i++) {
+        (void)fprintf(file, " %12s", verify_error_name(of_state[i]));
+    }
+    for (size_t i = 0; i < level->snapshot_count; i++) {
+        (void)fprintf(file, "\n  %12.6g", level->snapshot[i].time);
+        for (size_t j = 0; j < count; j++) {
+            char text[32];
+            (void)fprintf(file, " %12s", scientific(text, level->snapshot[i].error[of_state[j]]));
         }
     }
     (void)fprintf(file, "\n");
@@ -151,10 +180,10 @@ static void print_gates(FILE *file, const struct verify_study *study)
         (void)fprintf(file, "\nThe scene's bounds are meant for n = %d; the finest level here is n = %d.\n",
                       scene->levels[scene->level_count - 1], n);
     }
-    (void)fprintf(file, "\n  %-16s %12s    %-12s %s\n", "gate", "measured", "bound", "unit");
+    (void)fprintf(file, "\n  %-24s %12s    %-12s %s\n", "gate", "measured", "bound", "unit");
     for (size_t i = 0; i < study->gates.count; i++) {
         const struct verify_gate *gate = &study->gates.gate[i];
-        (void)fprintf(file, "  %-16s %12.4g %s %-12.4g [%s]  %s%s\n", gate->name, gate->value, gate->op, gate->bound,
+        (void)fprintf(file, "  %-24s %12.4g %s %-12.4g [%s]  %s%s\n", gate->name, gate->value, gate->op, gate->bound,
                       gate->unit, gate->pass ? "PASS" : "FAIL", isfinite(gate->value) ? "" : " (nothing was measured)");
     }
     (void)fprintf(file, "%s\n", verify_verdict(study));
@@ -163,6 +192,7 @@ static void print_gates(FILE *file, const struct verify_study *study)
 void verify_terminal_end(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
 {
     print_orders(file, study, shown, shown_count);
+    print_snapshots(file, study, shown, shown_count);
     print_facts(file, study);
     print_gates(file, study);
 }

@@ -79,19 +79,32 @@ bool verify_run_create(struct solver_scene *scene, struct solver_run **run, stru
     return done;
 }
 
-bool verify_simulate(struct solver_scene *scene, const char *folder, const char *command, struct solver_run **run,
-                     struct solver_error *error)
+/* By way of the snapshots whether anybody takes them or not, so that every command makes the same steps. */
+static bool advance(const struct solver_scene *scene, struct solver_run *run, verify_take *take, void *context,
+                    struct verify_progress *progress, struct solver_error *error)
+{
+    for (size_t i = 0; i < scene->snapshot_count; i++) {
+        if (!solver_run_to(run, scene->snapshot[i], verify_progress_show, progress, error) ||
+            (take != NULL && !take(context, run, error))) {
+            return false;
+        }
+    }
+    return solver_run_to(run, scene->t_end, verify_progress_show, progress, error);
+}
+
+bool verify_simulate(struct solver_scene *scene, const char *folder, const char *command, verify_take *take,
+                     void *context, struct solver_run **run, struct solver_error *error)
 {
     char label[SOLVER_NAME + 32];
     (void)snprintf(label, sizeof label, "%s, n = %d", scene->name, scene->n);
     struct verify_progress progress;
-    verify_progress_begin(&progress, label);
+    verify_progress_begin(&progress, label, scene->t_end);
     *run = NULL;
     if (!verify_run_create(scene, run, error)) {
         verify_progress_end(&progress);
         return false;
     }
-    bool done = solver_run_to(*run, scene->t_end, verify_progress_show, &progress, error);
+    bool done = advance(scene, *run, take, context, &progress, error);
     verify_progress_end(&progress);
     if (!done && error->code == SOLVER_BROKE_DOWN) {
         keep_last_good(scene, *run, folder, command, error);

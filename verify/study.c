@@ -63,13 +63,15 @@ void verify_study_free(struct verify_study *study)
     for (size_t i = 0; i < study->trace_count; i++) {
         free(study->trace[i].time);
     }
-    study->trace_count = 0;
+    for (size_t i = 0; i < study->level_count; i++) {
+        verify_level_free(&study->level[i]);
+    }
+    study->trace_count = study->level_count = 0;
 }
 
 bool verify_study_judge(struct verify_study *study, struct solver_error *error)
 {
-    const struct verify_level *finest = &study->level[study->level_count - 1];
-    return verify_gates_judge(study->scene, finest->error, finest->rate, &study->gates, error);
+    return verify_gates_judge(study->scene, &study->level[study->level_count - 1], &study->gates, error);
 }
 
 const char *verify_verdict(const struct verify_study *study)
@@ -85,9 +87,9 @@ const char *verify_verdict(const struct verify_study *study)
 /* Keys that say how a scene is solved, not what it is. */
 static bool is_method(const char *key, size_t length)
 {
-    static const char *const methods[] = {"scheme",      "evolved",    "stencil", "support", "reconstruction",
-                                          "volume_flux", "integrator", "cfl",     "n",       "perturb",
-                                          "seed",        "precision",  "threads"};
+    static const char *const methods[] = {"scheme",      "evolved",    "stencil", "support",   "reconstruction",
+                                          "volume_flux", "integrator", "cfl",     "n",         "perturb",
+                                          "seed",        "precision",  "threads", "snapshots", "history"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (strlen(methods[i]) == length && strncmp(methods[i], key, length) == 0) {
             return true;
@@ -141,11 +143,9 @@ size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS
             const char *name = scene->published[i].value[j].name;
             want(wanted, verify_error_find(name));
             if (verify_error_find(name) == VERIFY_ERRORS) {
-                (void)solver_fail(
-                    error, SOLVER_BAD_INPUT,
-                    "%s: published: there is no error called \"%s\"; there are p, P, P_all, u, F, probes, each "
-                    "also with _abs, _max, _abs_max or _l1",
-                    scene->path, name);
+                (void)solver_fail(error, SOLVER_BAD_INPUT,
+                                  "%s: published: there is no error called \"%s\"; there are %s", scene->path, name,
+                                  verify_error_names);
                 return 0;
             }
         }
@@ -160,6 +160,17 @@ size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
         if (wanted[i]) {
             shown[count++] = i;
+        }
+    }
+    return count;
+}
+
+size_t verify_shown_snapshots(const size_t *shown, size_t shown_count, size_t of_state[VERIFY_STATE_ERRORS])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < shown_count; i++) {
+        if (shown[i] >= VERIFY_SNAPSHOT_ERRORS && shown[i] < VERIFY_SNAPSHOT_ERRORS + VERIFY_STATE_ERRORS) {
+            of_state[count++] = shown[i] - VERIFY_SNAPSHOT_ERRORS;
         }
     }
     return count;

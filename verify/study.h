@@ -2,22 +2,13 @@
 #ifndef VERIFY_STUDY_H
 #define VERIFY_STUDY_H
 
-#include "solver/run.h"
 #include "solver/scene.h"
 #include "verify/files.h"
 #include "verify/gates.h"
-#include "verify/norms.h"
+#include "verify/level.h"
 #include "verify/truth.h"
 
 #include <stddef.h>
-
-struct verify_level {
-    int n;                       /* spacings along the reference length */
-    struct solver_facts facts;   /* spacing h, particles, steps, seconds, ... */
-    double ns_per_particle_step; /* [ns], time loop alone */
-    double error[VERIFY_ERRORS];
-    double rate[VERIFY_ERRORS]; /* observed order from the level before to this one; NaN at the first */
-};
 
 /* Displacement of a probe over time, of the component that moves most. */
 struct verify_trace {
@@ -45,10 +36,11 @@ struct verify_study {
  * alone gives infinity; at both, or any value that is no error or spacing, NaN: no order was observed. */
 double verify_order(double e1, double h1, double e2, double h2);
 
-/* Adds a level that has n, facts and errors: fills in its time per particle-step and its observed orders. */
+/* Adds a level that has n, facts and errors, and takes over what it holds: fills in its time per particle-step and its
+ * observed orders. */
 void verify_study_add(struct verify_study *study, const struct verify_level *level);
 
-/* Keeps the traces of a run's probes; verify_study_free gives them back. */
+/* Keeps the traces of a run's probes; verify_study_free gives them back, and the levels' snapshots. */
 bool verify_study_trace(struct verify_study *study, const struct solver_history *history, struct solver_error *error);
 void verify_study_free(struct verify_study *study);
 
@@ -65,5 +57,7 @@ double verify_published(const struct solver_scene *scene, int n, const char *err
 /* Errors worth a column: those published and those that a gate judges; p and P where there are none. Returns how many.
  * Fails with 0 (SOLVER_BAD_INPUT) on a published name that is no error. */
 size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], struct solver_error *error);
+/* Of those, the ones that are the largest over the snapshots: which error of a state each is the largest of. */
+size_t verify_shown_snapshots(const size_t *shown, size_t shown_count, size_t of_state[VERIFY_STATE_ERRORS]);
 
 #endif

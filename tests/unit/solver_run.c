@@ -25,6 +25,26 @@ static void test_t_end_is_hit(void)
     }
 }
 
+/* As many rows over t_end as the scene says, and the same ones where the run is made in parts. */
+static void test_history_rows(void)
+{
+    struct sample whole = start(smooth_motion, "dim=1 n=100 history=50"),
+                  parts = start(smooth_motion, "dim=1 n=100 history=50");
+    advance_to(&whole, 1.0);
+    const struct solver_history *rows = solver_run_history(whole.run);
+    CU_ASSERT_EQUAL(rows->count, 51);
+    for (size_t row = 0; row < rows->count; row++) {
+        double after = rows->totals[row].time - 0.02 * (double)row;
+        CU_ASSERT(after >= -1e-12 && after <= 1.0 / (double)output_of(&whole).step + 1e-12);
+    }
+    for (int part = 1; part <= 10; part++) {
+        advance_to(&parts, 0.1 * part);
+    }
+    CU_ASSERT_EQUAL(solver_run_history(parts.run)->count, 51);
+    finish(&whole);
+    finish(&parts);
+}
+
 static void test_steps_are_counted(void)
 {
     struct sample sample = start(smooth_motion, "dim=3 material.model=linear-elastic");
@@ -231,6 +251,7 @@ int main(void)
 {
     static const struct unit_test tests[] = {
         {"t_end is hit exactly", test_t_end_is_hit},
+        {"rows of the time history", test_history_rows},
         {"as many steps as asked for", test_steps_are_counted},
         {"progress sees every step and can stop the run", test_progress_can_stop},
         {"order in time is the integrator's", test_order_in_time},

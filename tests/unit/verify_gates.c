@@ -30,7 +30,7 @@ static void never_passes(void)
 static struct solver_scene *scene;
 static struct verify_gates gates;
 static struct solver_error why;
-static double error[VERIFY_ERRORS], rate[VERIFY_ERRORS];
+static struct verify_level level;
 
 /* A scene of stencil closed and CFL 0.3 with three rules: closed, sbp2, and one without conditions. */
 static void prepare(void)
@@ -49,14 +49,14 @@ static void prepare(void)
         .conditions = 1, .key = {"stencil"}, .text = {"sbp2"}, .bounds = 1, .bound = {{"p", 1e-9}}};
     scene->gate[2] = (struct solver_gate_rule){.bounds = 1, .bound = {{"P_abs", 7}}};
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
-        error[i] = 5e-4;
-        rate[i] = 2;
+        level.error[i] = 5e-4;
+        level.rate[i] = 2;
     }
 }
 
 static bool judge(void)
 {
-    return verify_gates_judge(scene, error, rate, &gates, &why);
+    return verify_gates_judge(scene, &level, &gates, &why);
 }
 
 static void the_rule_that_holds(void)
@@ -76,22 +76,22 @@ static void the_rule_that_holds(void)
 static void one_bound_decides(void)
 {
     prepare();
-    error[verify_error_find("p")] = 2e-3;
+    level.error[verify_error_find("p")] = 2e-3;
     CU_ASSERT_TRUE_FATAL(judge());
     CU_ASSERT_FALSE(gates.pass);
     CU_ASSERT_FALSE(gates.gate[0].pass);
     CU_ASSERT_TRUE(gates.gate[1].pass);
     prepare();
-    rate[verify_error_find("p")] = 1.8;
+    level.rate[verify_error_find("p")] = 1.8;
     CU_ASSERT_TRUE_FATAL(judge());
     CU_ASSERT_FALSE(gates.pass);
     CU_ASSERT_FALSE(gates.gate[1].pass);
     prepare();
-    rate[verify_error_find("p")] = NAN; /* one level only */
+    level.rate[verify_error_find("p")] = NAN; /* one level only */
     CU_ASSERT_TRUE_FATAL(judge());
     CU_ASSERT_FALSE(gates.pass);
     prepare();
-    error[verify_error_find("P")] = 1; /* nobody asked for this one */
+    level.error[verify_error_find("P")] = 1; /* nobody asked for this one */
     CU_ASSERT_TRUE_FATAL(judge());
     CU_ASSERT_TRUE(gates.pass);
 }
@@ -138,6 +138,11 @@ static void wrong_rules(void)
     strcpy(scene->gate[1].bound[0].name, "rate q"); /* also where the rule does not hold */
     CU_ASSERT_FALSE(judge());
     CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "\"rate q\""));
+    prepare();
+    strcpy(scene->gate[1].bound[0].name, "rate snapshots_p"); /* the scene takes none */
+    CU_ASSERT_FALSE(judge());
+    CU_ASSERT_EQUAL(why.code, SOLVER_BAD_INPUT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "needs the scene's key snapshots"));
 }
 
 int main(void)

@@ -89,11 +89,9 @@ static void components_counted(void)
     /* p off by 1 in y; a shear stress off by 2, a normal stress by 3; F off by 0.5; u exact at t = 1. */
     const double u[] = {1, 1}, p[] = {3, 5}, F[] = {2, 0.5, 0, 1}, P[] = {4, 2, 6, 5};
     const struct solver_output output = {.cloud = &cloud, .time = 1, .V = V, .u = u, .p = p, .F = F, .P = P};
-    const struct solver_history none = {.count = 1};
-    double error[VERIFY_ERRORS];
+    double error[VERIFY_STATE_ERRORS];
     struct solver_error why;
-    CU_ASSERT_TRUE_FATAL(verify_norms_measure(&output, &none, &kind, NULL, error, &why));
-    CU_ASSERT(isnan(error[verify_error_find("probes")])); /* nothing was recorded, so nothing is said */
+    CU_ASSERT_TRUE_FATAL(verify_norms_state(&output, &kind, NULL, error, &why));
     check(error[verify_error_find("p")], 1.0 / 5);
     check(error[verify_error_find("P")], 3 / sqrt(26));
     check(error[verify_error_find("P_all")], sqrt(13.0 / 46));
@@ -107,10 +105,6 @@ static void components_counted(void)
 static void probes_over_time(void)
 {
     const struct oracle_kind kind = {.state = constant_state};
-    double X[] = {1, 0}, V[] = {2};
-    struct solver_cloud cloud = {.dim = 2, .count = 1, .X = X};
-    const double field[4] = {0};
-    const struct solver_output output = {.cloud = &cloud, .V = V, .u = field, .p = field, .F = field, .P = field};
     struct solver_totals totals[] = {{.time = 0}, {.time = 1}, {.time = 2}};
     double place[][3] = {{3, 0, 0}, {0, 0, 0}};
     double u[] = {3, 0, 0, 0, 0, 0, 3, 1, 0, 0, 1.5, 0, 3, 2, 0, 2, 2, 0}; /* off by 0.5 at t = 1, by 2 at t = 2 */
@@ -118,14 +112,66 @@ static void probes_over_time(void)
         .count = 3, .totals = totals, .probe_count = 2, .probe_X = place, .probe_u = u};
     double error[VERIFY_ERRORS];
     struct solver_error why;
-    CU_ASSERT_TRUE_FATAL(verify_norms_measure(&output, &history, &kind, NULL, error, &why));
+    CU_ASSERT_TRUE_FATAL(verify_norms_probes(&history, &kind, NULL, 0.5, error, &why));
     check(error[verify_error_find("probes_abs")], sqrt((0.25 + 4) / 6));
     check(error[verify_error_find("probes")], sqrt((0.25 + 4) / (9 + 10 + 1 + 13 + 4)));
     check(error[verify_error_find("probes_abs_max")], 2);
     check(error[verify_error_find("probes_max")], 2 / sqrt(13));
+    check(error[verify_error_find("probes_nrmse")], sqrt((0.25 + 4) / 6) / 0.5);
+    CU_ASSERT_TRUE_FATAL(verify_norms_probes(&history, &kind, NULL, 0, error, &why));
+    CU_ASSERT(isnan(error[verify_error_find("probes_nrmse")])); /* relative to nothing */
     u[3] = NAN;
-    CU_ASSERT_TRUE_FATAL(verify_norms_measure(&output, &history, &kind, NULL, error, &why));
+    CU_ASSERT_TRUE_FATAL(verify_norms_probes(&history, &kind, NULL, 0.5, error, &why));
     CU_ASSERT(isnan(error[verify_error_find("probes")]) && isnan(error[verify_error_find("probes_abs_max")]));
+    CU_ASSERT(isnan(error[verify_error_find("probes_nrmse")]));
+    const struct solver_history none = {.count = 1}; /* nothing was recorded, so nothing is said */
+    error[verify_error_find("probes")] = error[verify_error_find("probes_nrmse")] = 0;
+    CU_ASSERT_TRUE_FATAL(verify_norms_probes(&none, &kind, NULL, 0.5, error, &why));
+    CU_ASSERT(isnan(error[verify_error_find("probes")]) && isnan(error[verify_error_find("probes_nrmse")]));
+}
+
+/* The largest of each error, whichever snapshot it comes from; one that could not be measured stays unmeasured. */
+static void worst_of_snapshots(void)
+{
+    size_t p = verify_error_find("p"), P = verify_error_find("P_l1"), F = verify_error_find("F_abs_max");
+    double one[VERIFY_STATE_ERRORS] = {0}, two[VERIFY_STATE_ERRORS] = {0}, error[VERIFY_ERRORS];
+    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
+        error[i] = 99;
+    }
+    one[p] = 3, one[P] = 1, one[F] = NAN;
+    two[p] = 2, two[P] = 4, two[F] = 5;
+    verify_norms_worst(0, one, error);
+    CU_ASSERT(error[verify_error_find("snapshots_p")] == 3); /* the first replaces what stood there */
+    verify_norms_worst(1, two, error);
+    CU_ASSERT(error[verify_error_find("snapshots_p")] == 3);
+    CU_ASSERT(error[verify_error_find("snapshots_P_l1")] == 4);
+    CU_ASSERT(isnan(error[verify_error_find("snapshots_F_abs_max")]));
+    CU_ASSERT(error[p] == 99 && error[VERIFY_PROBES_NRMSE] == 99);
+    two[p] = NAN;
+    verify_norms_worst(2, two, error);
+    CU_ASSERT(isnan(error[verify_error_find("snapshots_p")]));
+}
+
+/* What an error needs of the scene. */
+static void errors_that_apply(void)
+{
+    static const struct {
+        const char *name, *lacks;
+    } needs[] = {{"snapshots_P_l1", "snapshots"}, {"probes_abs", "probes"}, {"probes_nrmse", "probe_scale"}};
+    struct solver_scene scene = {.probe_count = 1, .probe_scale = 1, .snapshot_count = 1};
+    const char *lacks = NULL;
+    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
+        CU_ASSERT(verify_error_applies(&scene, i, &lacks) && lacks == NULL);
+    }
+    for (size_t i = 0; i < 3; i++) {
+        struct solver_scene less = scene;
+        less.snapshot_count = i == 0 ? 0 : 1;
+        less.probe_count = i == 1 ? 0 : 1;
+        less.probe_scale = i == 2 ? 0 : 1;
+        CU_ASSERT_FALSE(verify_error_applies(&less, verify_error_find(needs[i].name), &lacks));
+        CU_ASSERT_STRING_EQUAL(lacks, needs[i].lacks);
+        CU_ASSERT_TRUE(verify_error_applies(&less, verify_error_find("P_l1"), &lacks));
+    }
 }
 
 static void names(void)
@@ -138,6 +184,9 @@ static void names(void)
     }
     CU_ASSERT_STRING_EQUAL(verify_error_unit(verify_error_find("P_abs")), "Pa");
     CU_ASSERT_STRING_EQUAL(verify_error_unit(verify_error_find("P_max")), "-");
+    CU_ASSERT_STRING_EQUAL(verify_error_unit(verify_error_find("snapshots_P_abs")), "Pa");
+    CU_ASSERT_STRING_EQUAL(verify_error_name(VERIFY_PROBES_NRMSE), "probes_nrmse");
+    CU_ASSERT_EQUAL(verify_error_find("snapshots_P_l1"), VERIFY_SNAPSHOT_ERRORS + verify_error_find("P_l1"));
     CU_ASSERT_EQUAL(verify_error_find("q"), VERIFY_ERRORS);
     CU_ASSERT_EQUAL(verify_error_find(""), VERIFY_ERRORS);
 }
@@ -153,6 +202,8 @@ int main(void)
         {"infinity shows", infinity_is_no_small_error},
         {"components counted", components_counted},
         {"probes over time", probes_over_time},
+        {"largest over the snapshots", worst_of_snapshots},
+        {"errors that a scene can have", errors_that_apply},
         {"names and units", names},
     };
     return unit_main("norms", tests, sizeof tests / sizeof *tests);

@@ -40,6 +40,18 @@ static void zero_at_one_level(void)
     CU_ASSERT(verify_order(0, 0.1, 1e-3, 0.05) == -INFINITY);
 }
 
+/* The largest errors over the snapshots that have a column, as those of a state. */
+static void snapshot_columns(void)
+{
+    const size_t shown[] = {verify_error_find("p"), verify_error_find("snapshots_P_l1"), VERIFY_PROBES_NRMSE,
+                            verify_error_find("snapshots_u")};
+    size_t of_state[VERIFY_STATE_ERRORS];
+    CU_ASSERT_EQUAL_FATAL(verify_shown_snapshots(shown, 4, of_state), 2);
+    CU_ASSERT_EQUAL(of_state[0], verify_error_find("P_l1"));
+    CU_ASSERT_EQUAL(of_state[1], verify_error_find("u"));
+    CU_ASSERT_EQUAL(verify_shown_snapshots(shown, 1, of_state), 0);
+}
+
 static struct verify_study study;
 static struct solver_scene scene;
 
@@ -96,9 +108,13 @@ static void published_rows(void)
 int main(void)
 {
     static const struct unit_test tests[] = {
-        {"power laws", power_laws},     {"a growing error has a negative order", growing_error},
-        {"no order", no_order},         {"an error of zero at one level", zero_at_one_level},
-        {"levels added", levels_added}, {"published rows and columns shown", published_rows},
+        {"power laws", power_laws},
+        {"a growing error has a negative order", growing_error},
+        {"no order", no_order},
+        {"an error of zero at one level", zero_at_one_level},
+        {"snapshot columns", snapshot_columns},
+        {"levels added", levels_added},
+        {"published rows and columns shown", published_rows},
     };
     return unit_main("study", tests, sizeof tests / sizeof *tests);
 }

@@ -1,0 +1,37 @@
+/* What a study measured at one level, by name. */
+#ifndef VERIFY_LEVEL_H
+#define VERIFY_LEVEL_H
+
+#include "solver/run.h"
+#include "verify/norms.h"
+#include "verify/snapshot.h"
+
+struct verify_level {
+    int n;                       /* spacings along the reference length */
+    struct solver_facts facts;   /* spacing h, particles, steps, seconds, ... */
+    double ns_per_particle_step; /* [ns], time loop alone */
+    double error[VERIFY_ERRORS];
+    double rate[VERIFY_ERRORS]; /* observed order from the level before to this one; NaN at the first */
+    size_t snapshot_count;      /* taken so far */
+    struct verify_snapshot snapshot[SOLVER_SNAPSHOTS];
+};
+
+/* A measured value and how a bound holds it. */
+struct verify_value {
+    double value;   /* NaN: could not be measured */
+    const char *op; /* the side that is good: "<=" for errors, ">=" for orders */
+    const char *unit;
+};
+
+/* The value a gate names: an error, or "rate " and an error. If the scene cannot have it, fails (SOLVER_BAD_INPUT)
+ * with what there is; the text begins with `where`. */
+bool verify_level_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
+                        const char *where, struct verify_value *value, struct solver_error *error);
+
+/* Compares the present state of a run that stands at the scene's next snapshot; once the last is taken the errors over
+ * all snapshots are there. */
+bool verify_level_snapshot(struct verify_level *level, struct solver_run *run, const struct oracle_kind *kind,
+                           const struct oracle *oracle, struct solver_error *error);
+void verify_level_free(struct verify_level *level);
+
+#endif
