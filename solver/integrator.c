@@ -4,6 +4,12 @@
 #include <string.h>
 
 static const struct solver_integrator integrators[] = {
+    {"euler",
+     "one-stage, first order, explicit (001_363f711843f01da4.txt eq. 22-25)",
+     1,
+     1,
+     false,
+     {{.time = 0.0, .rate = 1.0, .weight = 1.0}}},
     {"tvd-rk2",
      "two-stage, second order, total variation diminishing: the papers' (000_e9ec29e1bde7947d.txt eq. 40)",
      2,

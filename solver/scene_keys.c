@@ -52,7 +52,8 @@ X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares no
   "one of stencil, least-squares, none", "slopes of the linear reconstruction at the Riemann states")                  \
 X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \
   "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
-X("integrator", WORD, AT(integrator), 0, 0, 0, "tvd-rk2 ssp-rk3 rk4 | euler", "rk4", "one of tvd-rk2, ssp-rk3, rk4",   \
+X("integrator", WORD, AT(integrator), 0, 0, 0, "euler tvd-rk2 ssp-rk3 rk4", "rk4",                     \
+  "one of euler, tvd-rk2, ssp-rk3, rk4",                                                                               \
   "time integrator")                                                                                                   \
 X("cfl", NUMBER, AT(cfl), ABOVE_ZERO, 10, 0, "", "0.8", "number in (0, 10]", "Courant-Friedrichs-Lewy number")         \
 X("t_end", NUMBER, AT(t_end), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [s]", "end of the run")                  \

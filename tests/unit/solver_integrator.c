@@ -3,6 +3,7 @@
 #include "tests/unit/unit.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { S = SOLVER_STAGES };
@@ -132,7 +133,7 @@ static void test_stages(void)
 /* Each stage of a strong stability preserving method is a convex combination of Euler steps no longer than dt. */
 static void test_strong_stability(void)
 {
-    static const char *const names[] = {"tvd-rk2", "ssp-rk3"};
+    static const char *const names[] = {"euler", "tvd-rk2", "ssp-rk3"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         const struct solver_integrator *integrator = solver_integrator_find(names[i]);
         CU_ASSERT_PTR_NOT_NULL_FATAL(integrator);
@@ -170,7 +171,8 @@ static void test_observed_order(void)
         double coarse = error_after(integrator, 200);
         double fine = error_after(integrator, 400);
         double order = log2(coarse / fine);
-        CU_ASSERT(fine < 1e-3);
+        printf("\n    %-8s error %.2e, order %.3f", integrator->name, fine, order);
+        CU_ASSERT(fine < pow(1.5 / 400, integrator->order)); /* the solution's own scales are one */
         CU_ASSERT(order > integrator->order - 0.1);
         CU_ASSERT(order < integrator->order + 0.3); /* better would mean that the test is blind to the leading error */
     }
@@ -220,7 +222,7 @@ static void test_table(void)
         CU_ASSERT_PTR_NOT_NULL(integrator->summary);
         count++;
     }
-    CU_ASSERT(count >= 3);
+    CU_ASSERT(count >= 4);
     CU_ASSERT_PTR_NULL(solver_integrator_find("rk5"));
     CU_ASSERT_PTR_NULL(solver_integrator_find(""));
 }

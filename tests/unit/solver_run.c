@@ -1,4 +1,5 @@
 /* Runs: time, order in time, motions known in closed form, and what the state holds. */
+#include "solver/integrator.h"
 #include "tests/unit/runs.h"
 
 static void test_t_end_is_hit(void)
@@ -94,17 +95,13 @@ static void test_progress_can_stop(void)
 /* The discrete system is an ODE: halving the step at a fixed lattice shows the integrator's order. */
 static void test_order_in_time(void)
 {
-    static const struct {
-        const char *integrator;
-        double order;
-    } rows[] = {{"tvd-rk2", 2.0}, {"ssp-rk3", 3.0}, {"rk4", 4.0}};
-    for (size_t row = 0; row < sizeof rows / sizeof *rows; row++) {
+    for (const struct solver_integrator *integrator = solver_integrators(); integrator->name != NULL; integrator++) {
         double u[3][9];
         for (size_t level = 0; level < 3; level++) {
             size_t steps = (size_t)32 << level;
             struct sample sample =
                 start(smooth_motion, "dim=1 n=8 material.model=linear-elastic evolved=pFJ integrator=%s cfl=%.17g",
-                      rows[row].integrator, 4.0 / (double)steps);
+                      integrator->name, 4.0 / (double)steps);
             advance(&sample, steps);
             memcpy(u[level], output_of(&sample).v, sizeof u[level]);
             finish(&sample);
@@ -116,7 +113,7 @@ static void test_order_in_time(void)
             fine = fmax(fine, fabs(u[1][a] - u[2][a]));
         }
         CU_ASSERT(fine > 1e-12); /* above round-off */
-        expect_below("order in time missing", rows[row].order - log2(coarse / fine), 0.2);
+        expect_below("order in time missing", fabs(integrator->order - log2(coarse / fine)), 0.2);
     }
 }
 
@@ -131,6 +128,7 @@ static void test_rigid_translation(void)
     static const char *const settings[] = {"material.model=linear-elastic integrator=tvd-rk2",
                                            "material.model=linear-elastic integrator=rk4 stencil=closed perturb=0.15",
                                            "integrator=ssp-rk3 evolved=pFJ",
+                                           "integrator=euler stencil=sbp2",
                                            "integrator=rk4 stencil=sph",
                                            "dim=2 integrator=tvd-rk2",
                                            "dim=1 integrator=rk4 evolved=pF"};
@@ -161,7 +159,7 @@ static void test_body_force(void)
     static const struct {
         const char *integrator, *force;
         double power;
-    } rows[] = {{"tvd-rk2", "t", 2.0}, {"ssp-rk3", "t^2", 3.0}, {"rk4", "t^3", 4.0}};
+    } rows[] = {{"euler", "t^0", 1.0}, {"tvd-rk2", "t", 2.0}, {"ssp-rk3", "t^2", 3.0}, {"rk4", "t^3", 4.0}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char force[128];
         (void)snprintf(force, sizeof force, "body_force = function(X, Y, Z, t) return first(%s, -2 * %s, 0) end\n",
@@ -178,7 +176,10 @@ static void test_body_force(void)
         struct solver_totals last = history->totals[history->count - 1];
         double kinetic = 5.0 * momentum * momentum / (2.0 * sample.scene->rho);
         CU_ASSERT_DOUBLE_EQUAL(last.kinetic, kinetic, 1e-12);
-        CU_ASSERT_DOUBLE_EQUAL(last.external, kinetic, 2e-3 * kinetic); /* the power is of higher degree */
+        double late =
+            rows[i].power == 1.0 ? 1.0 / (double)output.step : 0.0; /* Euler sees no speed in the first step */
+        CU_ASSERT_DOUBLE_EQUAL(last.external, (1.0 - late) * kinetic,
+                               2e-3 * kinetic); /* its power is of higher degree */
         CU_ASSERT_DOUBLE_EQUAL(last.strain, 0.0, 1e-14);
         finish(&sample);
     }

@@ -206,7 +206,7 @@ static void test_motion(void)
     static const struct {
         const char *integrator, *rate;
         double power;
-    } rows[] = {{"tvd-rk2", "t", 2.0}, {"ssp-rk3", "t^2", 3.0}, {"rk4", "t^3", 4.0}};
+    } rows[] = {{"euler", "t^0", 1.0}, {"tvd-rk2", "t", 2.0}, {"ssp-rk3", "t^2", 3.0}, {"rk4", "t^3", 4.0}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         char text[512];
         (void)snprintf(text, sizeof text,

@@ -66,7 +66,7 @@ static void bad_keys(void)
         {"{0, 0}", "{0, 0/0}", 0, "domain.lower[2]: expected a number, got NaN"},
         {"{0, 0}", "{3, 0}", 0, "domain.upper[1]: expected a number above domain.lower[1] = 3, got 2"},
         {0, "scheme = 'jst'", 0, "scheme: 'jst' is not there yet; expected one of upwind"},
-        {0, "integrator = 'euler'", 0, "integrator: 'euler' is not there yet"},
+        {0, "integrator = 'rk5'", 0, "integrator: expected one of euler, tvd-rk2, ssp-rk3, rk4, got the text 'rk5'"},
         {0, "precision = 'mixed'", 0, "precision: 'mixed' is not there yet"},
         {0, "scheme = '|'", 0, "scheme: expected one of upwind, got the text '|'"},
         {0, "evolved = 'pFH'", 0, "evolved: expected one of pF, pFJ, pFHJ, got the text 'pFH'"},
