@@ -21,6 +21,7 @@ struct solver_cloud {
     double *X;      /* [count][dim] [m] */
     double *V;      /* [count] [m^dim]; sums to the body's volume, first moments exact */
     uint32_t *tags; /* [count]; bit f: lies on face f */
+    uint32_t *body; /* [count] which body; NULL: there is one */
     size_t face_point_count;
     struct solver_face_point *face_point; /* [face_point_count] */
     uint32_t points[3];                   /* particles along each axis of the lattice */

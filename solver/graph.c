@@ -2,79 +2,8 @@
 
 #include "solver/memory.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Cells wider than the radius, by more than round-off in finding a particle's cell, so that neighbours lie in the 3^dim
- * cells around; and than the spacing, so that there are no more of them than particles, whatever the radius. */
-struct cells {
-    uint32_t size[3];
-    double lower[3], width[3];
-    size_t *start;      /* [cells + 1] */
-    uint32_t *particle; /* [count] sorted by cell, ascending within */
-};
-
-static void cell_of(const struct solver_cloud *cloud, const struct cells *cells, size_t a, uint32_t at[3])
-{
-    size_t dim = (size_t)cloud->dim;
-    for (size_t axis = 0; axis < 3; axis++) {
-        at[axis] = 0;
-        if (axis < dim) {
-            double place = (cloud->X[a * dim + axis] - cells->lower[axis]) / cells->width[axis];
-            double last = (double)(cells->size[axis] - 1);
-            at[axis] = (uint32_t)fmin(fmax(place, 0.0), last);
-        }
-    }
-}
-
-static size_t cell_index(const struct cells *cells, const uint32_t at[3])
-{
-    return ((size_t)at[2] * cells->size[1] + at[1]) * cells->size[0] + at[0];
-}
-
-static bool sort_into_cells(const struct solver_cloud *cloud, double radius, struct cells *cells,
-                            struct solver_error *error)
-{
-    size_t dim = (size_t)cloud->dim;
-    size_t total = 1;
-    double narrowest = fmax(radius, cloud->spacing) * (1.0 + 1e-9);
-    for (size_t axis = 0; axis < 3; axis++) {
-        cells->size[axis] = 1;
-        if (axis >= dim) {
-            continue;
-        }
-        double low = INFINITY;
-        double high = -INFINITY;
-        for (size_t a = 0; a < cloud->count; a++) {
-            low = fmin(low, cloud->X[a * dim + axis]);
-            high = fmax(high, cloud->X[a * dim + axis]);
-        }
-        cells->lower[axis] = low;
-        cells->size[axis] = (uint32_t)fmax(1.0, floor((high - low) / narrowest));
-        cells->width[axis] = fmax((high - low) / cells->size[axis], narrowest);
-        total *= cells->size[axis];
-    }
-    if (!solver_alloc((void **)&cells->start, total + 1, sizeof *cells->start, "cell list", error) ||
-        !solver_alloc((void **)&cells->particle, cloud->count, sizeof *cells->particle, "cell list", error)) {
-        return false;
-    }
-    uint32_t at[3];
-    for (size_t a = 0; a < cloud->count; a++) {
-        cell_of(cloud, cells, a, at);
-        cells->start[cell_index(cells, at) + 1]++;
-    }
-    for (size_t c = 0; c < total; c++) {
-        cells->start[c + 1] += cells->start[c];
-    }
-    for (size_t a = cloud->count; a-- > 0;) { /* backwards: start[c + 1] ends as the first of its cell */
-        cell_of(cloud, cells, a, at);
-        cells->particle[--cells->start[cell_index(cells, at) + 1]] = (uint32_t)a;
-    }
-    memmove(cells->start, cells->start + 1, total * sizeof *cells->start);
-    cells->start[total] = cloud->count;
-    return true;
-}
 
 static int ascending(const void *left, const void *right)
 {
@@ -83,82 +12,145 @@ static int ascending(const void *left, const void *right)
     return a < b ? -1 : a > b;
 }
 
-/* Neighbours of a into `out` if it is not NULL; returns their number. */
-static size_t neighbours(const struct solver_cloud *cloud, const struct cells *cells, double radius, size_t a,
-                         uint32_t *out)
+static void sort(uint32_t *list, size_t count)
 {
-    size_t dim = (size_t)cloud->dim;
+    enum { SHORT = 96 }; /* below it insertion is faster: lists come as a few ascending runs */
+    if (count > SHORT) {
+        qsort(list, count, sizeof *list, ascending);
+        return;
+    }
+    for (size_t i = 1; i < count; i++) {
+        uint32_t moved = list[i];
+        size_t at = i;
+        for (; at > 0 && list[at - 1] > moved; at--) {
+            list[at] = list[at - 1];
+        }
+        list[at] = moved;
+    }
+}
+
+/* What the search for one list needs to know. */
+struct search {
+    const struct solver_points *points;
+    const struct solver_cells *cells;
+    enum solver_pairs which;
+    double square; /* of the radius */
+};
+
+static bool paired(const struct search *search, size_t a, size_t b)
+{
+    const struct solver_points *points = search->points;
+    double square = 0.0;
+    for (size_t axis = 0; axis < (size_t)points->dim; axis++) {
+        double d = points->x[b * points->stride + axis] - points->x[a * points->stride + axis];
+        square += d * d;
+    }
+    bool together = points->body == NULL || points->body[a] == points->body[b];
+    return square < search->square && b != a && together == (search->which == SOLVER_PAIRS_WITHIN);
+}
+
+/* Neighbours of a into `out` if it is not NULL; returns their number. */
+static size_t neighbours(const struct search *search, size_t a, uint32_t *out)
+{
+    const struct solver_cells *cells = search->cells;
+    uint32_t near[27];
+    size_t cell_count = solver_cells_near(cells, a, near);
     size_t found = 0;
-    uint32_t at[3];
-    uint32_t near[3];
-    cell_of(cloud, cells, a, at);
-    for (near[2] = at[2] - (at[2] > 0); near[2] <= at[2] + 1 && near[2] < cells->size[2]; near[2]++) {
-        for (near[1] = at[1] - (at[1] > 0); near[1] <= at[1] + 1 && near[1] < cells->size[1]; near[1]++) {
-            for (near[0] = at[0] - (at[0] > 0); near[0] <= at[0] + 1 && near[0] < cells->size[0]; near[0]++) {
-                size_t cell = cell_index(cells, near);
-                for (size_t i = cells->start[cell]; i < cells->start[cell + 1]; i++) {
-                    size_t b = cells->particle[i];
-                    double square = 0.0;
-                    for (size_t axis = 0; axis < dim; axis++) {
-                        double d = cloud->X[b * dim + axis] - cloud->X[a * dim + axis];
-                        square += d * d;
-                    }
-                    if (b != a && square < radius * radius) {
-                        if (out != NULL) {
-                            out[found] = (uint32_t)b;
-                        }
-                        found++;
-                    }
+    for (size_t c = 0; c < cell_count; c++) {
+        for (size_t i = cells->start[near[c]]; i < cells->start[near[c] + 1]; i++) {
+            uint32_t b = cells->particle[i];
+            if (paired(search, a, b)) {
+                if (out != NULL) {
+                    out[found] = b;
                 }
+                found++;
             }
         }
     }
     if (out != NULL) {
-        qsort(out, found, sizeof *out, ascending);
+        sort(out, found);
     }
     return found;
+}
+
+/* Room for at least `wanted` entries, old ones lost; when it was too small before, for a quarter more. */
+static bool make_room(void **array, size_t *room, size_t wanted, size_t size, struct solver_error *error)
+{
+    if (*array != NULL && wanted <= *room) {
+        return true;
+    }
+    size_t enough = *array == NULL ? wanted : wanted + wanted / 4;
+    free(*array);
+    *room = 0;
+    if (!solver_alloc(array, enough, size, "neighbour graph", error)) {
+        return false;
+    }
+    *room = enough;
+    return true;
+}
+
+static bool list_pairs(struct solver_graph *graph, const struct search *search, struct solver_error *error)
+{
+    size_t count = search->points->count;
+    if (!make_room((void **)&graph->row, &graph->row_room, count + 1, sizeof *graph->row, error)) {
+        return false;
+    }
+    graph->count = count;
+    graph->row[0] = 0;
+#pragma omp parallel for schedule(static)
+    for (size_t a = 0; a < count; a++) {
+        graph->row[a + 1] = neighbours(search, a, NULL);
+    }
+    for (size_t a = 0; a < count; a++) {
+        graph->row[a + 1] += graph->row[a];
+    }
+    if (!make_room((void **)&graph->neighbour, &graph->neighbour_room, graph->row[count], sizeof *graph->neighbour,
+                   error)) {
+        return false;
+    }
+#pragma omp parallel for schedule(static)
+    for (size_t a = 0; a < count; a++) {
+        (void)neighbours(search, a, graph->neighbour + graph->row[a]);
+    }
+    return true;
+}
+
+bool solver_graph_update(struct solver_graph *graph, const struct solver_points *points, enum solver_pairs which,
+                         double radius, struct solver_error *error)
+{
+    struct search search = {.points = points, .cells = &graph->cells, .which = which, .square = radius * radius};
+    bool ok = radius > 0.0 ? solver_cells_sort(&graph->cells, points, radius, error)
+                           : solver_fail(error, SOLVER_BAD_INPUT,
+                                         "support: neighbours within %g m; expected a positive radius", radius);
+    if (!ok || !list_pairs(graph, &search, error)) {
+        solver_graph_free(graph);
+        return false;
+    }
+    return true;
+}
+
+bool solver_graph_build_pairs(const struct solver_cloud *cloud, double radius, enum solver_pairs which,
+                              struct solver_graph *graph, struct solver_error *error)
+{
+    struct solver_points points = {
+        .dim = cloud->dim, .count = cloud->count, .stride = (size_t)cloud->dim, .x = cloud->X, .body = cloud->body};
+    *graph = (struct solver_graph){.row = NULL};
+    bool ok = solver_graph_update(graph, &points, which, radius, error);
+    solver_cells_free(&graph->cells);
+    return ok;
 }
 
 bool solver_graph_build(const struct solver_cloud *cloud, double radius, struct solver_graph *graph,
                         struct solver_error *error)
 {
-    struct cells cells = {.start = NULL};
-    *graph = (struct solver_graph){.count = cloud->count};
-    if (!(radius > 0.0)) {
-        return solver_fail(error, SOLVER_BAD_INPUT, "support: neighbours within %g m; expected a positive radius",
-                           radius);
-    }
-    bool ok = sort_into_cells(cloud, radius, &cells, error) &&
-              solver_alloc((void **)&graph->row, cloud->count + 1, sizeof *graph->row, "neighbour graph", error);
-    if (ok) {
-#pragma omp parallel for schedule(static)
-        for (size_t a = 0; a < cloud->count; a++) {
-            graph->row[a + 1] = neighbours(cloud, &cells, radius, a, NULL);
-        }
-        for (size_t a = 0; a < cloud->count; a++) {
-            graph->row[a + 1] += graph->row[a];
-        }
-        ok = solver_alloc((void **)&graph->neighbour, graph->row[cloud->count], sizeof *graph->neighbour,
-                          "neighbour graph", error);
-    }
-    if (ok) {
-#pragma omp parallel for schedule(static)
-        for (size_t a = 0; a < cloud->count; a++) {
-            (void)neighbours(cloud, &cells, radius, a, graph->neighbour + graph->row[a]);
-        }
-    }
-    free(cells.start);
-    free(cells.particle);
-    if (!ok) {
-        solver_graph_free(graph);
-    }
-    return ok;
+    return solver_graph_build_pairs(cloud, radius, SOLVER_PAIRS_WITHIN, graph, error);
 }
 
 void solver_graph_free(struct solver_graph *graph)
 {
     free(graph->row);
     free(graph->neighbour);
+    solver_cells_free(&graph->cells);
     *graph = (struct solver_graph){.row = NULL};
 }
 
