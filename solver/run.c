@@ -56,8 +56,11 @@ static bool set_constants(struct solver_run *run, struct solver_error *error)
             return false;
         }
     }
-    run->body = (struct solver_body){
-        .scene = scene, .cloud = run->cloud, .constants = run->constants, .stride = composite ? 1 : 0};
+    run->body = (struct solver_body){.scene = scene,
+                                     .cloud = run->cloud,
+                                     .constants = run->constants,
+                                     .stride = composite ? 1 : 0,
+                                     .faces = &run->faces};
     return true;
 }
 

@@ -50,6 +50,36 @@ enum solver_face_kind {
 /* Evolved sets of 000_e9ec29e1bde7947d.txt: the geometric measures that have an equation of their own. */
 enum solver_evolved { SOLVER_PF, SOLVER_PFJ, SOLVER_PFHJ };
 
+/* What the updated-Lagrangian scheme is made of (001_363f711843f01da4.txt); every ingredient can be left out. */
+enum solver_ulsph_gradient {
+    SOLVER_ULSPH_CORRECTED, /* by the corrective matrix L (eq. 27 to 29) */
+    SOLVER_ULSPH_PLAIN      /* of the kernel alone (eq. 8, 9, 13) */
+};
+/* What damps the motion of neighbours against one another. */
+enum solver_ulsph_dissipation {
+    SOLVER_ULSPH_RIEMANN,   /* R, eq. 43, 44 */
+    SOLVER_ULSPH_VISCOSITY, /* AV, eq. 15, 16 */
+    SOLVER_ULSPH_INVISCID
+};
+/* What keeps particles from clumping in tension. */
+enum solver_ulsph_tension {
+    SOLVER_ULSPH_CONTROL,           /* TIC, eq. 51; artificial stress at the surface alone */
+    SOLVER_ULSPH_ARTIFICIAL_STRESS, /* AS, eq. 17, 31 */
+    SOLVER_ULSPH_BARE
+};
+/* Which part of the artificial stress acts. */
+enum solver_ulsph_repulsion {
+    SOLVER_ULSPH_PRINTED, /* all of it (eq. 17), at the initial spacing too: it does not vanish as n grows */
+    SOLVER_ULSPH_EXCESS   /* what exceeds its value at the initial spacing: between particles that came closer */
+};
+struct solver_ulsph_terms {
+    int gradient, dissipation, tension, repulsion; /* of the enums above */
+    double viscosity;                              /* alpha of AV */
+    double stress_factor, stress_exponent;         /* epsilon and n of AS */
+    double xsph;                                   /* epsilon of the transport velocity (eq. 14); 0: none */
+    double delta;                                  /* of the density diffusion (eq. 33); 0: none */
+};
+
 struct solver_named {
     char name[SOLVER_NAME];
     double value;
@@ -113,12 +143,13 @@ struct solver_scene {
     char material_model[SOLVER_NAME];
     double E, nu, rho; /* [Pa], [-], [kg/m^3] */
 
-    char scheme[SOLVER_NAME]; /* "upwind" */
+    char scheme[SOLVER_NAME]; /* "upwind", "ulsph" */
     enum solver_evolved evolved;
     char stencil[SOLVER_NAME];        /* "sph", "closed", "sbp2", "sbp4" */
     double support;                   /* support radius / spacing */
     char reconstruction[SOLVER_NAME]; /* "stencil", "least-squares", "none" */
     char volume_flux[SOLVER_NAME];    /* dissipation of J by the jump of "pressure" or of the whole "stress" */
+    struct solver_ulsph_terms ulsph;
     char integrator[SOLVER_NAME];
     double cfl;
     double t_end; /* [s] */

@@ -41,7 +41,7 @@ X("material.rho", NUMBER, AT(rho), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number >
   "density in the reference configuration")                                                                            \
 X("material.at", FORMULA, SOLVER_MATERIAL_AT, 0, 0, 0, "", OPTIONAL, "function(X, Y, Z) returning E, nu, rho",            \
   "constants of a composite body, in place of material.E, nu and rho")                                                 \
-X("scheme", WORD, AT(scheme), 0, 0, 0, "upwind | jst ulsph efg adaptle", "upwind", "one of upwind",                    \
+X("scheme", WORD, AT(scheme), 0, 0, 0, "upwind ulsph | jst efg adaptle", "upwind", "one of upwind, ulsph",                    \
   "semi-discrete right-hand side")                                                                                     \
 X("evolved", INDEX, AT(evolved), 0, 0, 0, "pF pFJ pFHJ", "pFHJ", "one of pF, pFJ, pFHJ",                               \
   "geometric measures with an equation of their own")                                                                  \
@@ -52,6 +52,23 @@ X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares no
   "one of stencil, least-squares, none", "slopes of the linear reconstruction at the Riemann states")                  \
 X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \
   "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
+X("ulsph.gradient", INDEX, AT(ulsph.gradient), 0, 0, 0, "corrected plain", "corrected", "one of corrected, plain",       \
+  "gradients with the corrective matrix L, or of the kernel alone")                                                    \
+X("ulsph.dissipation", INDEX, AT(ulsph.dissipation), 0, 0, 0, "riemann viscosity none", "riemann",                     \
+  "one of riemann, viscosity, none", "second-order Riemann term (R) or artificial viscosity (AV)")                     \
+X("ulsph.viscosity", NUMBER, AT(ulsph.viscosity), 0, 10, 0, "", "1", "number in [0, 10]",                              \
+  "alpha of the artificial viscosity")                                                                                 \
+X("ulsph.tension", INDEX, AT(ulsph.tension), 0, 0, 0, "control stress none", "control",                                \
+  "one of control, stress, none", "tensile instability control (TIC) or artificial stress (AS)")                       \
+X("ulsph.repulsion", INDEX, AT(ulsph.repulsion), 0, 0, 0, "printed excess", "printed", "one of printed, excess",       \
+  "the artificial stress as printed, or what of it exceeds its value at the initial spacing")                          \
+X("ulsph.stress_factor", NUMBER, AT(ulsph.stress_factor), 0, 10, 0, "", "0.15", "number in [0, 10]",                   \
+  "epsilon of the artificial stress")                                                                                  \
+X("ulsph.stress_exponent", NUMBER, AT(ulsph.stress_exponent), 0, 32, 0, "", "8", "number in [0, 32]",                  \
+  "exponent n of the artificial stress")                                                                               \
+X("ulsph.xsph", NUMBER, AT(ulsph.xsph), 0, 1, 0, "", "0.5", "number in [0, 1]",                                        \
+  "smoothing of the velocity that carries particles; 0: none")                                                         \
+X("ulsph.delta", NUMBER, AT(ulsph.delta), 0, 1, 0, "", "0.002", "number in [0, 1]", "density diffusion; 0: none")      \
 X("integrator", WORD, AT(integrator), 0, 0, 0, "euler tvd-rk2 ssp-rk3 rk4", "rk4",                     \
   "one of euler, tvd-rk2, ssp-rk3, rk4",                                                                               \
   "time integrator")                                                                                                   \

@@ -12,12 +12,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+struct solver_faces;
+
 /* What a run gives its scheme. It belongs to the run and outlives the scheme's system. */
 struct solver_body {
     const struct solver_scene *scene;
     const struct solver_cloud *cloud;
     const struct solver_material_constants *constants; /* [1], or [count] in a composite body */
     size_t stride;                                     /* 0, or 1 in a composite body */
+    const struct solver_faces *faces;                  /* there when rates are evaluated, not before */
 };
 
 /* What a system stands on. Arrays belong to it. */
@@ -80,6 +83,6 @@ struct solver_scheme {
 const struct solver_scheme *const *solver_schemes(void);
 const struct solver_scheme *solver_scheme_find(const char *name);
 
-extern const struct solver_scheme solver_scheme_upwind;
+extern const struct solver_scheme solver_scheme_upwind, solver_scheme_ulsph;
 
 #endif

@@ -36,8 +36,12 @@ faces = {
     X1 = "free",
 }
 
-scheme, evolved = "upwind", "pF"
-stencil, integrator, cfl = "sbp4", "rk4", 0.8
+scheme = "upwind" -- or "ulsph", the paper's updated-Lagrangian system
+if scheme == "ulsph" then
+    support, integrator, cfl = 2.4, "tvd-rk2", 0.5
+else
+    evolved, stencil, integrator, cfl = "pF", "sbp4", "rk4", 0.8
+end
 
 oracle = { name = "bimaterial-wave" }
 probes = { { name = "left end", X = {0} }, { name = "interface", X = {L1} }, { name = "right end", X = {L1 + L2} } }

@@ -20,8 +20,12 @@ faces = { X0 = "clamped", X1 = "free", Y0 = "free", Y1 = "free" }
 -- differs from it by 0.5 % in frequency and sets off others besides.
 initial = { from = "oracle" }
 
-scheme, evolved = "upwind", "pF"
-stencil, integrator, cfl = "sbp4", "rk4", 0.8
+scheme = "upwind" -- or "ulsph", the paper's updated-Lagrangian system
+if scheme == "ulsph" then
+    support, integrator, cfl = 2.4, "tvd-rk2", 0.5
+else
+    evolved, stencil, integrator, cfl = "pF", "sbp4", "rk4", 0.8
+end
 
 oracle = { name = "cantilever" }
 probes = { { name = "tip", X = {L, 0} } }

@@ -21,8 +21,12 @@ initial = {
     end,
 }
 
-scheme, evolved = "upwind", "pF"
-stencil, integrator, cfl = "sbp4", "rk4", 0.8
+scheme = "upwind" -- or "ulsph", the paper's updated-Lagrangian system
+if scheme == "ulsph" then
+    support, integrator, cfl = 2.4, "tvd-rk2", 0.5
+else
+    evolved, stencil, integrator, cfl = "pF", "sbp4", "rk4", 0.8
+end
 
 oracle = { name = "cable" }
 probes = { { name = "free end", X = {L} } }

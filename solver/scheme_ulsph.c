@@ -1,0 +1,359 @@
+/* Updated-Lagrangian SPH, delta-ULSPH-R-TIC with every ingredient switchable (001_363f711843f01da4.txt), as a scheme of
+ * the table: its neighbours, its terms and its fields. The loops are in ulsph_dim.c.
+ *
+ * On a lattice with particles on the faces, whose volumes are cut there, kernel sums are weighted by whole cells all
+ * the same: weighted by the cut volumes they make the period of the cantilever 3.5 % too long at ten particles across,
+ * by whole cells 0.4 %. */
+#include "solver/faces.h"
+#include "solver/memory.h"
+#include "solver/pieces.h"
+#include "solver/scheme.h"
+#include "solver/skin.h"
+#include "solver/ulsph.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct system {
+    const struct solver_body *body;
+    const struct solver_ulsph_loops *loops;
+    struct solver_skin skin;
+    double *pair; /* [skin's capacity][dim + 2] */
+    size_t pair_room;
+    double *mass, *full_mass; /* [count] */
+    double fastest;           /* p-wave speed [m/s] */
+    struct solver_ulsph work;
+};
+
+static const struct solver_material_constants *constants_of(const struct system *system, size_t a)
+{
+    return system->body->constants + a * system->body->stride;
+}
+
+static void choose_terms(struct system *system)
+{
+    const struct solver_scene *scene = system->body->scene;
+    const struct solver_ulsph_loops *loops[] = {&solver_ulsph_1d, &solver_ulsph_2d, &solver_ulsph_3d};
+    system->loops = loops[scene->dim - 1];
+    system->work = (struct solver_ulsph){
+        .constants = system->body->constants,
+        .stride = system->body->stride,
+        .mass = system->mass,
+        .full_mass = system->full_mass,
+        .h = 0.5 * scene->support * system->body->cloud->spacing,
+        .spacing = system->body->cloud->spacing,
+        .terms = scene->ulsph,
+    };
+}
+
+/* Masses, those of whole cells, and the fastest wave. A particle on k faces has its cell cut in half k times. */
+static void weigh(struct system *system)
+{
+    const struct solver_cloud *cloud = system->body->cloud;
+    for (size_t a = 0; a < cloud->count; a++) {
+        const struct solver_material_constants *of_a = constants_of(system, a);
+        system->mass[a] = of_a->rho * cloud->V[a];
+        system->full_mass[a] = system->mass[a] * (double)(1U << (unsigned)__builtin_popcount(cloud->tags[a]));
+        system->fastest = fmax(system->fastest, of_a->cp);
+    }
+}
+
+static void destroy(void *of)
+{
+    struct system *system = of;
+    solver_skin_free(&system->skin);
+    free(system->pair);
+    free(system->mass);
+    free(system->full_mass);
+    free(system);
+}
+
+static bool refuse(const struct solver_scene *scene, struct solver_error *error)
+{
+    if (strcmp(scene->material_model, "linear-elastic") != 0) {
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "%s: material.model: scheme = \"ulsph\" has one material, Hooke's law in rates with the Jaumann "
+            "rate; expected linear-elastic, got %s",
+            scene->path, scene->material_model);
+    }
+    if (solver_scene_has(scene, SOLVER_INITIAL_DISPLACEMENT) && !solver_scene_has(scene, SOLVER_INITIAL_F)) {
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "%s: initial.F: scheme = \"ulsph\" needs it beside initial.displacement: its initial density "
+            "and stress follow from it",
+            scene->path);
+    }
+    return true;
+}
+
+static bool create(const struct solver_body *body, void **out, struct solver_error *error)
+{
+    size_t count = body->cloud->count;
+    struct system *system = NULL;
+    if (!refuse(body->scene, error) || !solver_alloc((void **)&system, 1, sizeof *system, "scheme", error)) {
+        return false;
+    }
+    system->body = body;
+    if (!solver_alloc((void **)&system->mass, count, sizeof(double), "masses", error) ||
+        !solver_alloc((void **)&system->full_mass, count, sizeof(double), "masses", error) ||
+        !solver_skin_create(body->cloud, body->scene->support * body->cloud->spacing, &system->skin, error)) {
+        destroy(system);
+        return false;
+    }
+    choose_terms(system);
+    weigh(system);
+    *out = system;
+    return true;
+}
+
+static struct solver_geometry geometry(const void *of)
+{
+    const struct system *system = of;
+    const struct solver_cloud *cloud = system->body->cloud;
+    size_t record = (size_t)cloud->dim + 2;
+    return (struct solver_geometry){
+        .V = cloud->V,
+        .face_point = cloud->face_point,
+        .face_point_count = cloud->face_point_count,
+        .pairs = system->skin.graph.row[cloud->count],
+        .bytes = (double)(solver_skin_bytes(&system->skin) +
+                          sizeof(double) * (system->pair_room * record + 2 * cloud->count)),
+        .passes = 3, /* geometry, gradients, rates */
+        .residual = NAN,
+    };
+}
+
+static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
+{
+    struct system *system = of;
+    struct solver_ulsph *work = &system->work;
+    size_t vector = system->loops->lanes;
+    size_t tensor = (size_t)system->body->cloud->dim * vector;
+    bool control = work->terms.tension == SOLVER_ULSPH_CONTROL;
+    bool tensile = work->terms.tension != SOLVER_ULSPH_BARE;
+    const struct solver_field rows[] = {
+        {"v", vector, true, &work->v, &work->v_rate, 0},
+        {"x", vector, true, &work->x, &work->x_rate, 0},
+        {"rho", 1, true, &work->rho, &work->rho_rate, 0},
+        {"S", tensor, true, &work->S, &work->S_rate, 0},
+        {"m/rho", 1, false, &work->volume, NULL, 0},
+        {"cell", 1, false, &work->cell, NULL, 0},
+        {"L", work->terms.gradient == SOLVER_ULSPH_CORRECTED ? tensor : 0, false, &work->L, NULL, 0},
+        {"transport v", work->terms.xsph > 0.0 ? vector : 0, false, &work->transport, NULL, 0},
+        {"sigma L", tensor, false, &work->sigma_L, NULL, 0},
+        {"sigma+ L", tensile ? tensor : 0, false, &work->tensile_L, NULL, 0},
+        {"colour", control ? 1 : 0, false, &work->colour, NULL, 0},
+        {"inner", control ? 1 : 0, false, &work->inner, NULL, 0},
+        {"grad v", work->terms.dissipation == SOLVER_ULSPH_RIEMANN ? tensor : 0, false, &work->v_gradient, NULL, 0},
+        {"grad rho", work->terms.delta > 0.0 ? vector : 0, false, &work->rho_gradient, NULL, 0},
+    };
+    memcpy(table, rows, sizeof rows);
+    return sizeof rows / sizeof *rows;
+}
+
+/* Neighbours of the particles as they lie now, with room for their pair records. */
+static bool find_neighbours(struct system *system, struct solver_error *error)
+{
+    const struct solver_cloud *cloud = system->body->cloud;
+    struct solver_ulsph *work = &system->work;
+    if (!solver_skin_update(&system->skin, work->x, system->loops->lanes, error)) {
+        return false;
+    }
+    size_t pairs = system->skin.graph.row[cloud->count];
+    if (pairs > system->pair_room) {
+        size_t room = pairs + pairs / 4;
+        free(system->pair);
+        system->pair = NULL;
+        system->pair_room = 0;
+        if (!solver_alloc((void **)&system->pair, room * ((size_t)cloud->dim + 2), sizeof(double), "pairs", error)) {
+            return false;
+        }
+        system->pair_room = room;
+    }
+    work->row = system->skin.graph.row;
+    work->neighbour = system->skin.graph.neighbour;
+    work->pair = system->pair;
+    return true;
+}
+
+/* Density and deviatoric stress of a small initial strain: Hooke's law. */
+static void strain_initially(struct system *system, size_t a, const double *F)
+{
+    struct solver_ulsph *work = &system->work;
+    size_t dim = (size_t)system->body->cloud->dim;
+    size_t lanes = system->loops->lanes;
+    const struct solver_material_constants *of_a = constants_of(system, a);
+    double volumetric = 0.0;
+    for (size_t i = 0; i < dim; i++) {
+        volumetric += F[i * dim + i] - 1.0;
+    }
+    for (size_t i = 0; i < dim; i++) {
+        for (size_t j = 0; j < dim; j++) {
+            double strain = 0.5 * (F[i * dim + j] + F[j * dim + i]) - (i == j ? 1.0 + volumetric / 3.0 : 0.0);
+            work->S[(a * dim + j) * lanes + i] = 2.0 * of_a->mu * strain;
+        }
+    }
+    work->rho[a] = of_a->rho * (1.0 - volumetric);
+}
+
+static bool start(void *of, struct solver_error *error)
+{
+    struct system *system = of;
+    struct solver_ulsph *work = &system->work;
+    const struct solver_scene *scene = system->body->scene;
+    const struct solver_cloud *cloud = system->body->cloud;
+    size_t dim = (size_t)cloud->dim;
+    if (work->transport == NULL) {
+        work->transport = work->v;
+    }
+    for (size_t a = 0; a < cloud->count; a++) {
+        double X[3] = {0};
+        double F[9];
+        work->rho[a] = constants_of(system, a)->rho;
+        if (solver_scene_has(scene, SOLVER_INITIAL_F)) {
+            memcpy(X, cloud->X + a * dim, dim * sizeof *X);
+            if (!solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {
+                return false;
+            }
+            strain_initially(system, a, F);
+        }
+    }
+    return find_neighbours(system, error);
+}
+
+typedef void loop(const struct solver_ulsph *work, size_t begin, size_t end);
+
+static void over_all(const struct system *system, loop *pass)
+{
+    size_t count = system->body->cloud->count;
+#pragma omp parallel for schedule(static)
+    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+        struct solver_piece at = solver_piece_at(piece, count);
+        pass(&system->work, at.begin, at.end);
+    }
+}
+
+static bool evaluate(void *of, double t, double dt, struct solver_error *error)
+{
+    struct system *system = of;
+    struct solver_ulsph *work = &system->work;
+    (void)dt;
+    if (!find_neighbours(system, error)) {
+        return false;
+    }
+    over_all(system, system->loops->geometry);
+    /* smoothing must not carry particles off the faces that hold them */
+    if (work->transport != work->v &&
+        !solver_faces_constrain(system->body->faces, system->body, t, system->loops->lanes, work->transport, error)) {
+        return false;
+    }
+    over_all(system, system->loops->gradients);
+    over_all(system, system->loops->rates);
+    return true;
+}
+
+static void refresh(void *of, size_t begin, size_t end)
+{
+    const struct system *system = of;
+    system->loops->volumes(&system->work, begin, end);
+}
+
+/* As eq. 26, with the p-wave's speed, the fastest there is, in place of sqrt(K / rho). */
+static double largest_step(const void *of)
+{
+    const struct system *system = of;
+    return system->body->scene->cfl * system->work.h / system->fastest;
+}
+
+static size_t first_broken(const void *of, size_t begin, size_t end)
+{
+    const struct system *system = of;
+    return system->loops->first_broken(&system->work, begin, end);
+}
+
+static const char *complaint(const void *of, size_t a)
+{
+    const struct system *system = of;
+    double rho = system->work.rho[a];
+    return !isfinite(rho) ? "density rho is not finite"
+           : rho <= 0.0   ? "density rho is not positive"
+                          : "deviatoric stress S is not finite";
+}
+
+/* Pressure as the paper has it, positive in compression (eq. 5). */
+static double pressure_of(const struct system *system, size_t a)
+{
+    const struct solver_material_constants *of_a = constants_of(system, a);
+    return of_a->kappa * (system->work.rho[a] / of_a->rho - 1.0);
+}
+
+/* S with its components out of the plane or line: it has no trace. */
+static void deviator_of(const struct system *system, size_t a, double S[9])
+{
+    size_t dim = (size_t)system->body->cloud->dim;
+    double in_plane = 0.0;
+    memset(S, 0, 9 * sizeof *S);
+    for (size_t i = 0; i < dim; i++) {
+        for (size_t j = 0; j < dim; j++) {
+            S[3 * i + j] = system->work.S[(a * dim + j) * system->loops->lanes + i];
+        }
+        in_plane += S[4 * i];
+    }
+    for (size_t i = dim; i < 3; i++) {
+        S[4 * i] = -in_plane / (double)(3 - dim);
+    }
+}
+
+static void look(const void *of, size_t a, struct solver_point *point)
+{
+    const struct system *system = of;
+    deviator_of(system, a, point->sigma);
+    for (size_t i = 0; i < 3; i++) {
+        point->sigma[4 * i] -= pressure_of(system, a);
+    }
+    point->J = constants_of(system, a)->rho / system->work.rho[a];
+}
+
+static double energy(const void *of, size_t a)
+{
+    const struct system *system = of;
+    const struct solver_material_constants *of_a = constants_of(system, a);
+    double S[9];
+    double square = 0.0;
+    double p = pressure_of(system, a);
+    deviator_of(system, a, S);
+    for (size_t i = 0; i < 9; i++) {
+        square += S[i] * S[i];
+    }
+    return (square / (4.0 * of_a->mu) + p * p / (2.0 * of_a->kappa)) * of_a->rho / system->work.rho[a];
+}
+
+static const struct solver_scheme_choice choices[] = {
+    {"ulsph.gradient = \"corrected\", \"plain\"", "with the corrective matrix L or without"},
+    {"ulsph.dissipation = \"riemann\", \"viscosity\", \"none\"", "R, AV"},
+    {"ulsph.tension = \"control\", \"stress\", \"none\"", "TIC, AS"},
+    {"ulsph.xsph, ulsph.delta", "transport velocity, density diffusion; 0: none"},
+    {NULL, NULL},
+};
+
+const struct solver_scheme solver_scheme_ulsph = {
+    .name = "ulsph",
+    .summary = "updated-Lagrangian SPH, delta-ULSPH-R-TIC (001_363f711843f01da4.txt)",
+    .choice = choices,
+    .deformation = false,
+    .advice = "a smaller cfl, a finer n, or ulsph.tension = \"control\"",
+    .create = create,
+    .destroy = destroy,
+    .geometry = geometry,
+    .fields = fields,
+    .start = start,
+    .evaluate = evaluate,
+    .refresh = refresh,
+    .largest_step = largest_step,
+    .first_broken = first_broken,
+    .complaint = complaint,
+    .look = look,
+    .energy = energy,
+};

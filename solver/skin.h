@@ -1,0 +1,25 @@
+/* Neighbours of moving particles. The list reaches a skin farther than asked, and is made anew only when particles have
+ * moved so far that a pair outside it may have come within the radius. Since what lies beyond the radius counts for
+ * nothing, results do not depend on when that is. */
+#ifndef SOLVER_SKIN_H
+#define SOLVER_SKIN_H
+
+#include "solver/cloud.h"
+#include "solver/graph.h"
+
+struct solver_skin {
+    const struct solver_cloud *cloud;
+    double radius, margin;     /* [m] */
+    struct solver_graph graph; /* pairs nearer than radius + margin when it was made */
+    double *built;             /* [count][dim] where the particles then were [m] */
+    size_t updates;            /* how often it was made */
+};
+
+bool solver_skin_create(const struct solver_cloud *cloud, double radius, struct solver_skin *skin,
+                        struct solver_error *error);
+void solver_skin_free(struct solver_skin *skin);
+/* Makes the list fit the positions x, padded vectors of `lanes` [m]. */
+bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes, struct solver_error *error);
+size_t solver_skin_bytes(const struct solver_skin *skin);
+
+#endif

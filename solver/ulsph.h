@@ -1,0 +1,61 @@
+/* The pair loops of updated-Lagrangian SPH (001_363f711843f01da4.txt section 2 and 3), compiled per dimension. Fields
+ * are padded columns (dim.h).
+ *
+ * Notation of the paper: r_ij = r_j - r_i, f_ij = f_j - f_i, V = m / rho the volume now, w the Wendland C2 kernel,
+ * L the corrective matrix that makes gradients of linear fields exact. */
+#ifndef SOLVER_ULSPH_H
+#define SOLVER_ULSPH_H
+
+#include "solver/material.h"
+#include "solver/scene.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+struct solver_ulsph {
+    /* Neighbours now, or a little farther apart than the kernel reaches: those beyond it count for nothing. */
+    const size_t *row;
+    const uint32_t *neighbour;
+    double *pair; /* [pairs][DIM + 2]: r_ij, then s with grad_i w_ij = s r_ij, then w_ij */
+
+    /* What the scene asks for. */
+    const struct solver_material_constants *constants; /* [1], or [count] in a composite body */
+    size_t stride;                                     /* 0, or 1 in a composite body */
+    const double *mass;                                /* [count] [kg], per unit thickness in 2D */
+    const double *full_mass;                           /* [count] of a whole cell: more than the mass where the particle
+                                                          lies on a face of the body */
+    double h, spacing;                                 /* smoothing length, particle spacing d0 [m] */
+    struct solver_ulsph_terms terms;
+
+    /* State; NULL where the scene does not ask for it. */
+    double *v, *x, *rho, *S; /* evolved; S the deviatoric stress in the plane, or along the line */
+    double *v_rate, *x_rate, *rho_rate, *S_rate;
+    double *volume, *cell; /* [count] now: mass / rho, full_mass / rho */
+    double *L;             /* tensor; NULL: I */
+    double *transport;     /* vector: transport velocity; v itself where xsph = 0 */
+    double *sigma_L;       /* tensor: sigma L */
+    double *tensile_L;     /* tensor: sigma+ L, sigma+ the tensile part (-R of the paper) */
+    double *inner;         /* [count] colour C (eq. 52), then 1 within the body and 0 at and next to its surface */
+    double *colour;
+    double *v_gradient;   /* tensor (eq. 45) */
+    double *rho_gradient; /* vector (eq. 35) */
+};
+
+struct solver_ulsph_loops {
+    size_t lanes;
+    /* Volumes of the particles, before anything else. */
+    void (*volumes)(const struct solver_ulsph *work, size_t begin, size_t end);
+    /* Pair records, L, transport velocity, colour, and sigma L. Reads volumes of neighbours. */
+    void (*geometry)(const struct solver_ulsph *work, size_t begin, size_t end);
+    /* x_rate, rho_rate (eq. 27), S_rate (eq. 6), and what eq. 33, 44 and 51 need. Reads transport velocities and
+     * colours of neighbours. */
+    void (*gradients)(const struct solver_ulsph *work, size_t begin, size_t end);
+    /* v_rate without loads (eq. 51), density diffusion. Reads gradients and stresses of neighbours. */
+    void (*rates)(const struct solver_ulsph *work, size_t begin, size_t end);
+    /* First particle in [begin, end) whose state is broken (NaN, or rho <= 0), else end. */
+    size_t (*first_broken)(const struct solver_ulsph *work, size_t begin, size_t end);
+};
+
+extern const struct solver_ulsph_loops solver_ulsph_1d, solver_ulsph_2d, solver_ulsph_3d;
+
+#endif

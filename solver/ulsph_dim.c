@@ -1,0 +1,327 @@
+#include "solver/ulsph.h"
+
+#include "solver/dim.h"
+#include "solver/dim_spectral.h"
+
+#include <math.h>
+
+enum { TENSOR = DIM * LANES, PAIR = DIM + 2, SLOPE = DIM, KERNEL = DIM + 1 };
+
+/* The kernel's height: its integral is 1 (eq. 12 in 2D). */
+static double normalisation(double h)
+{
+    const double pi = 3.14159265358979323846;
+    const double of_unit[] = {3.0 / 4.0, 7.0 / (4.0 * pi), 21.0 / (16.0 * pi)};
+    return of_unit[DIM - 1] / pow(h, DIM);
+}
+
+/* w (eq. 11) and s = -w' / r at q = r/h. */
+static inline double kernel(double height, double h, double q, double *slope)
+{
+    double t = fmax(0.0, 1.0 - 0.5 * q);
+    double cube = t * t * t;
+    *slope = 5.0 * height * cube / (h * h);
+    return height * cube * t * (2.0 * q + 1.0);
+}
+
+static inline vec pair_vector(const struct solver_ulsph *work, size_t ab)
+{
+    vec r = {0};
+    for (int I = 0; I < DIM; I++) {
+        r[I] = work->pair[ab * PAIR + (size_t)I];
+    }
+    return r;
+}
+
+/* T r */
+static inline vec apply(struct tensor T, vec r)
+{
+    vec product = T.column[0] * r[0];
+    for (int I = 1; I < DIM; I++) {
+        product += T.column[I] * r[I];
+    }
+    return product;
+}
+
+/* A B */
+static inline struct tensor times(struct tensor A, struct tensor B)
+{
+    struct tensor product;
+    for (int I = 0; I < DIM; I++) {
+        product.column[I] = apply(A, B.column[I]);
+    }
+    return product;
+}
+
+static void volumes(const struct solver_ulsph *work, size_t begin, size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        work->volume[a] = work->mass[a] / work->rho[a];
+        work->cell[a] = work->full_mass[a] / work->rho[a];
+    }
+}
+
+/* sigma = -p I + S, p = c0^2 (rho - rho0) with c0^2 = kappa / rho0 (eq. 3, 5). */
+static inline struct tensor cauchy_stress(const struct solver_ulsph *work, size_t a)
+{
+    const struct solver_material_constants *of_a = work->constants + a * work->stride;
+    double p = of_a->kappa * (work->rho[a] / of_a->rho - 1.0);
+    struct tensor sigma = load_tensor(work->S + a * TENSOR);
+    for (int I = 0; I < DIM; I++) {
+        sigma.column[I][I] -= p;
+    }
+    return sigma;
+}
+
+/* The inverse of the symmetric moment matrix sum_j V_j s r (x) r, whose size is that of I. A particle with too few
+ * neighbours for one keeps the plain kernel. */
+static inline struct tensor corrective_matrix(struct tensor M)
+{
+    double J = determinant(M);
+    if (!(J > 1e-6)) {
+        return identity();
+    }
+    struct tensor L = cofactor(M); /* of a symmetric matrix: the adjugate */
+    for (int I = 0; I < DIM; I++) {
+        L.column[I] /= J;
+    }
+    return L;
+}
+
+static void geometry(const struct solver_ulsph *work, size_t begin, size_t end)
+{
+    double height = normalisation(work->h);
+    double per_h = 1.0 / work->h;
+    for (size_t a = begin; a < end; a++) {
+        vec x_a = load(work->x + a * LANES);
+        vec v_a = load(work->v + a * LANES);
+        struct tensor M = {{{0}}};
+        vec smoothing = {0};
+        double colour = work->volume[a] * height;
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            size_t b = work->neighbour[ab];
+            double *pair = work->pair + ab * PAIR;
+            vec r = load(work->x + b * LANES) - x_a;
+            double slope;
+            double w = kernel(height, work->h, sqrt(dot(r, r)) * per_h, &slope);
+            for (int I = 0; I < DIM; I++) {
+                pair[I] = r[I];
+                M.column[I] += (work->cell[b] * slope * r[I]) * r;
+            }
+            pair[SLOPE] = slope;
+            pair[KERNEL] = w;
+            colour += work->volume[b] * w;
+            smoothing += (2.0 * work->mass[b] * w / (work->rho[a] + work->rho[b])) * (load(work->v + b * LANES) - v_a);
+        }
+        struct tensor L = work->L != NULL ? corrective_matrix(M) : identity();
+        struct tensor sigma = cauchy_stress(work, a);
+        store_tensor(work->sigma_L + a * TENSOR, times(sigma, L));
+        if (work->L != NULL) {
+            store_tensor(work->L + a * TENSOR, L);
+        }
+        if (work->tensile_L != NULL) {
+            store_tensor(work->tensile_L + a * TENSOR, times(positive_part(sigma), L));
+        }
+        if (work->transport != work->v) {
+            store(work->transport + a * LANES, v_a + work->terms.xsph * smoothing);
+        }
+        if (work->colour != NULL) {
+            work->colour[a] = colour;
+        }
+    }
+}
+
+enum { SURFACE_PERCENT = 90 }; /* of the colour (eq. 52) */
+
+/* Whether the particle is within the body: neither on its surface nor next to a particle that is (section 3.4). */
+static bool is_inner(const struct solver_ulsph *work, size_t a)
+{
+    double reach = 1.2 * work->spacing;
+    bool inner = work->colour[a] >= SURFACE_PERCENT / 100.0;
+    for (size_t ab = work->row[a]; inner && ab < work->row[a + 1]; ab++) {
+        vec r = pair_vector(work, ab);
+        inner = dot(r, r) >= reach * reach || work->colour[work->neighbour[ab]] >= SURFACE_PERCENT / 100.0;
+    }
+    return inner;
+}
+
+/* The same material: density diffuses within it only. */
+static inline bool same_phase(const struct solver_ulsph *work, size_t a, size_t b)
+{
+    const struct solver_material_constants *of_a = work->constants + a * work->stride;
+    const struct solver_material_constants *of_b = work->constants + b * work->stride;
+    return work->stride == 0 || (of_a->rho == of_b->rho && of_a->kappa == of_b->kappa);
+}
+
+/* Rates of density and deviatoric stress from the gradient of the transport velocity (eq. 27, 6, 7). */
+static inline void constitutive_rates(const struct solver_ulsph *work, size_t a, struct tensor G)
+{
+    double mu = work->constants[a * work->stride].mu;
+    double divergence = trace(G);
+    struct tensor T = transpose(G);
+    struct tensor S = load_tensor(work->S + a * TENSOR);
+    struct tensor spin;
+    struct tensor rate;
+    for (int I = 0; I < DIM; I++) {
+        spin.column[I] = 0.5 * (G.column[I] - T.column[I]);
+        rate.column[I] = mu * (G.column[I] + T.column[I]);
+        rate.column[I][I] -= 2.0 / 3.0 * mu * divergence;
+    }
+    struct tensor turned = times(spin, S); /* Omega S - S Omega = Omega S + (Omega S)^T */
+    struct tensor back = transpose(turned);
+    for (int I = 0; I < DIM; I++) {
+        rate.column[I] += turned.column[I] + back.column[I];
+    }
+    store_tensor(work->S_rate + a * TENSOR, rate);
+    work->rho_rate[a] = -work->rho[a] * divergence;
+}
+
+static void gradients(const struct solver_ulsph *work, size_t begin, size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        struct tensor L = work->L != NULL ? load_tensor(work->L + a * TENSOR) : identity();
+        vec transport_a = load(work->transport + a * LANES);
+        vec v_a = load(work->v + a * LANES);
+        struct tensor G = {{{0}}};
+        struct tensor G_v = {{{0}}};
+        vec G_rho = {0};
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            size_t b = work->neighbour[ab];
+            vec weight = (work->cell[b] * work->pair[ab * PAIR + SLOPE]) * pair_vector(work, ab);
+            vec difference = load(work->transport + b * LANES) - transport_a;
+            for (int I = 0; I < DIM; I++) {
+                G.column[I] += difference * weight[I];
+            }
+            if (work->v_gradient != NULL) {
+                vec jump = load(work->v + b * LANES) - v_a;
+                for (int I = 0; I < DIM; I++) {
+                    G_v.column[I] += jump * weight[I];
+                }
+            }
+            if (work->rho_gradient != NULL && same_phase(work, a, b)) {
+                G_rho += (work->rho[b] - work->rho[a]) * weight;
+            }
+        }
+        constitutive_rates(work, a, times(G, L)); /* (du (x) g) L = du (x) L g: L is symmetric */
+        store(work->x_rate + a * LANES, transport_a);
+        if (work->v_gradient != NULL) {
+            store_tensor(work->v_gradient + a * TENSOR, times(G_v, L));
+        }
+        if (work->rho_gradient != NULL) {
+            store(work->rho_gradient + a * LANES, apply(L, G_rho));
+        }
+        if (work->inner != NULL) {
+            work->inner[a] = is_inner(work, a) ? 1.0 : 0.0;
+        }
+    }
+}
+
+/* Pi_ij of the artificial viscosity (eq. 16) or the Riemann term 2 C_ij (u_j - u_i) / (rho_i rho_j) (eq. 41, 43, 44).
+ */
+static inline double dissipation(const struct solver_ulsph *work, size_t a, size_t b, vec r, struct tensor G_a)
+{
+    const struct solver_material_constants *of_a = work->constants + a * work->stride;
+    const struct solver_material_constants *of_b = work->constants + b * work->stride;
+    double c_a = sqrt(of_a->kappa / of_a->rho);
+    double c_b = sqrt(of_b->kappa / of_b->rho);
+    double rho_a = work->rho[a];
+    double rho_b = work->rho[b];
+    double square = dot(r, r);
+    vec jump = load(work->v + b * LANES) - load(work->v + a * LANES);
+    if (work->terms.dissipation == SOLVER_ULSPH_VISCOSITY) {
+        double approach = fmin(0.0, dot(jump, r));
+        return work->terms.viscosity * work->h * (c_a + c_b) / (rho_a + rho_b) * approach /
+               (square + 0.01 * work->h * work->h);
+    }
+    struct tensor G_b = load_tensor(work->v_gradient + b * TENSOR);
+    jump -= 0.5 * (apply(G_a, r) + apply(G_b, r));
+    double root_a = sqrt(rho_a);
+    double root_b = sqrt(rho_b);
+    double impedance = (c_a * rho_a * root_a + c_b * rho_b * root_b) / (root_a + root_b);
+    return 2.0 * impedance * dot(jump, r) / sqrt(square) / (rho_a * rho_b);
+}
+
+/* f_ij of the artificial stress (eq. 17), or what of it exceeds its value at the initial spacing. */
+static inline double repulsion(const struct solver_ulsph *work, double w, double w_at_spacing)
+{
+    double f = pow(w / w_at_spacing, work->terms.stress_exponent);
+    return work->terms.stress_factor * (work->terms.repulsion == SOLVER_ULSPH_EXCESS ? fmax(0.0, f - 1.0) : f);
+}
+
+/* Force of one pair over s: V_i V_j (sigma_j L_j + sigma_i L_i) r with what tension asks for (eq. 51), sigma+ = -R.
+ * Kernel sums are weighted by whole cells c, those of particles on a face included, and the force is the negative
+ * adjoint of the gradient they make: V_i c_j takes the place of V_i V_j for sigma_i, V_j c_i for sigma_j. */
+static inline vec pair_stress(const struct solver_ulsph *work, size_t a, size_t ab, vec r, double w_at_spacing)
+{
+    size_t b = work->neighbour[ab];
+    double own = work->volume[a] * work->cell[b];
+    double other = work->volume[b] * work->cell[a];
+    vec force = other * apply(load_tensor(work->sigma_L + b * TENSOR), r) +
+                own * apply(load_tensor(work->sigma_L + a * TENSOR), r);
+    if (work->tensile_L != NULL) {
+        vec tension = own * apply(load_tensor(work->tensile_L + a * TENSOR), r);
+        if (work->inner != NULL && work->inner[a] != 0.0) {
+            force -= 2.0 * tension;
+        } else {
+            tension += other * apply(load_tensor(work->tensile_L + b * TENSOR), r);
+            force -= repulsion(work, work->pair[ab * PAIR + KERNEL], w_at_spacing) * tension;
+        }
+    }
+    return force;
+}
+
+static void rates(const struct solver_ulsph *work, size_t begin, size_t end)
+{
+    double slope;
+    double w_at_spacing = kernel(normalisation(work->h), work->h, work->spacing / work->h, &slope);
+    for (size_t a = begin; a < end; a++) {
+        const struct solver_material_constants *of_a = work->constants + a * work->stride;
+        vec acceleration = {0};
+        double diffusion = 0.0;
+        struct tensor G_a = {{{0}}};
+        if (work->v_gradient != NULL) {
+            G_a = load_tensor(work->v_gradient + a * TENSOR);
+        }
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            double s = work->pair[ab * PAIR + SLOPE];
+            if (s == 0.0) {
+                continue;
+            }
+            size_t b = work->neighbour[ab];
+            vec r = pair_vector(work, ab);
+            acceleration += (s / work->mass[a]) * pair_stress(work, a, ab, r, w_at_spacing);
+            if (work->terms.dissipation != SOLVER_ULSPH_INVISCID) {
+                acceleration += (work->mass[b] * s * dissipation(work, a, b, r, G_a)) * r;
+            }
+            if (work->rho_gradient != NULL && same_phase(work, a, b)) {
+                vec G = load(work->rho_gradient + a * LANES) + load(work->rho_gradient + b * LANES);
+                diffusion += (2.0 * (work->rho[b] - work->rho[a]) - dot(G, r)) * s * work->volume[b];
+            }
+        }
+        store(work->v_rate + a * LANES, acceleration);
+        if (work->rho_gradient != NULL) {
+            work->rho_rate[a] += work->terms.delta * work->h * sqrt(of_a->kappa / of_a->rho) * diffusion;
+        }
+    }
+}
+
+static size_t first_broken(const struct solver_ulsph *work, size_t begin, size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        vec v = load(work->v + a * LANES);
+        struct tensor S = load_tensor(work->S + a * TENSOR);
+        if (!isfinite(dot(v, v)) || !isfinite(contract(S, S)) || !(work->rho[a] > 0.0) || !isfinite(work->rho[a])) {
+            return a;
+        }
+    }
+    return end;
+}
+
+const struct solver_ulsph_loops DIM_NAME(solver_ulsph) = {
+    .lanes = LANES,
+    .volumes = volumes,
+    .geometry = geometry,
+    .gradients = gradients,
+    .rates = rates,
+    .first_broken = first_broken,
+};
