@@ -132,6 +132,7 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
     size_t vector = system->loops->lanes;
     size_t tensor = (size_t)system->body->cloud->dim * vector;
     bool control = work->terms.tension == SOLVER_ULSPH_CONTROL;
+    bool riemann = work->terms.dissipation == SOLVER_ULSPH_RIEMANN;
     bool tensile = work->terms.tension != SOLVER_ULSPH_BARE;
     const struct solver_field rows[] = {
         {"v", vector, true, &work->v, &work->v_rate, 0},
@@ -140,13 +141,15 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
         {"S", tensor, true, &work->S, &work->S_rate, 0},
         {"m/rho", 1, false, &work->volume, NULL, 0},
         {"cell", 1, false, &work->cell, NULL, 0},
+        {"sqrt(rho)", riemann ? 1 : 0, false, &work->root_rho, NULL, 0},
+        {"z", riemann ? 1 : 0, false, &work->z, NULL, 0},
         {"L", work->terms.gradient == SOLVER_ULSPH_CORRECTED ? tensor : 0, false, &work->L, NULL, 0},
         {"transport v", work->terms.xsph > 0.0 ? vector : 0, false, &work->transport, NULL, 0},
         {"sigma L", tensor, false, &work->sigma_L, NULL, 0},
         {"sigma+ L", tensile ? tensor : 0, false, &work->tensile_L, NULL, 0},
         {"colour", control ? 1 : 0, false, &work->colour, NULL, 0},
         {"inner", control ? 1 : 0, false, &work->inner, NULL, 0},
-        {"grad v", work->terms.dissipation == SOLVER_ULSPH_RIEMANN ? tensor : 0, false, &work->v_gradient, NULL, 0},
+        {"grad v", riemann ? tensor : 0, false, &work->v_gradient, NULL, 0},
         {"grad rho", work->terms.delta > 0.0 ? vector : 0, false, &work->rho_gradient, NULL, 0},
     };
     memcpy(table, rows, sizeof rows);

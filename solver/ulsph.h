@@ -31,6 +31,7 @@ struct solver_ulsph {
     double *v, *x, *rho, *S; /* evolved; S the deviatoric stress in the plane, or along the line */
     double *v_rate, *x_rate, *rho_rate, *S_rate;
     double *volume, *cell; /* [count] now: mass / rho, full_mass / rho */
+    double *root_rho, *z;  /* [count] sqrt(rho), c0 rho^(3/2) (eq. 41) */
     double *L;             /* tensor; NULL: I */
     double *transport;     /* vector: transport velocity; v itself where xsph = 0 */
     double *sigma_L;       /* tensor: sigma L */
@@ -43,7 +44,7 @@ struct solver_ulsph {
 
 struct solver_ulsph_loops {
     size_t lanes;
-    /* Volumes of the particles, before anything else. */
+    /* What a particle has of its own: volumes, impedance. Before anything else. */
     void (*volumes)(const struct solver_ulsph *work, size_t begin, size_t end);
     /* Pair records, L, transport velocity, colour, and sigma L. Reads volumes of neighbours. */
     void (*geometry)(const struct solver_ulsph *work, size_t begin, size_t end);

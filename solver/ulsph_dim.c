@@ -18,7 +18,7 @@ static double normalisation(double h)
 /* w (eq. 11) and s = -w' / r at q = r/h. */
 static inline double kernel(double height, double h, double q, double *slope)
 {
-    double t = fmax(0.0, 1.0 - 0.5 * q);
+    double t = q < 2.0 ? 1.0 - 0.5 * q : 0.0;
     double cube = t * t * t;
     *slope = 5.0 * height * cube / (h * h);
     return height * cube * t * (2.0 * q + 1.0);
@@ -53,11 +53,22 @@ static inline struct tensor times(struct tensor A, struct tensor B)
     return product;
 }
 
+/* c0 = sqrt(K / rho0) (eq. 5) [m/s]. */
+static inline double sound_speed(const struct solver_ulsph *work, size_t a)
+{
+    const struct solver_material_constants *of_a = work->constants + a * work->stride;
+    return sqrt(of_a->kappa / of_a->rho);
+}
+
 static void volumes(const struct solver_ulsph *work, size_t begin, size_t end)
 {
     for (size_t a = begin; a < end; a++) {
         work->volume[a] = work->mass[a] / work->rho[a];
         work->cell[a] = work->full_mass[a] / work->rho[a];
+        if (work->root_rho != NULL) {
+            work->root_rho[a] = sqrt(work->rho[a]);
+            work->z[a] = sound_speed(work, a) * work->rho[a] * work->root_rho[a];
+        }
     }
 }
 
@@ -217,28 +228,24 @@ static void gradients(const struct solver_ulsph *work, size_t begin, size_t end)
 }
 
 /* Pi_ij of the artificial viscosity (eq. 16) or the Riemann term 2 C_ij (u_j - u_i) / (rho_i rho_j) (eq. 41, 43, 44).
- */
+ * The impedance z = c rho^(3/2) of eq. 41 is a particle's own. */
 static inline double dissipation(const struct solver_ulsph *work, size_t a, size_t b, vec r, struct tensor G_a)
 {
-    const struct solver_material_constants *of_a = work->constants + a * work->stride;
-    const struct solver_material_constants *of_b = work->constants + b * work->stride;
-    double c_a = sqrt(of_a->kappa / of_a->rho);
-    double c_b = sqrt(of_b->kappa / of_b->rho);
     double rho_a = work->rho[a];
     double rho_b = work->rho[b];
     double square = dot(r, r);
     vec jump = load(work->v + b * LANES) - load(work->v + a * LANES);
     if (work->terms.dissipation == SOLVER_ULSPH_VISCOSITY) {
         double approach = fmin(0.0, dot(jump, r));
-        return work->terms.viscosity * work->h * (c_a + c_b) / (rho_a + rho_b) * approach /
+        double c = 0.5 * (sound_speed(work, a) + sound_speed(work, b));
+        return work->terms.viscosity * work->h * c * 2.0 / (rho_a + rho_b) * approach /
                (square + 0.01 * work->h * work->h);
     }
     struct tensor G_b = load_tensor(work->v_gradient + b * TENSOR);
     jump -= 0.5 * (apply(G_a, r) + apply(G_b, r));
-    double root_a = sqrt(rho_a);
-    double root_b = sqrt(rho_b);
-    double impedance = (c_a * rho_a * root_a + c_b * rho_b * root_b) / (root_a + root_b);
-    return 2.0 * impedance * dot(jump, r) / sqrt(square) / (rho_a * rho_b);
+    double impedance = work->z[a] + work->z[b];
+    double roots = work->root_rho[a] + work->root_rho[b];
+    return 2.0 * impedance * dot(jump, r) / (sqrt(square) * rho_a * rho_b * roots);
 }
 
 /* f_ij of the artificial stress (eq. 17), or what of it exceeds its value at the initial spacing. */
@@ -275,7 +282,6 @@ static void rates(const struct solver_ulsph *work, size_t begin, size_t end)
     double slope;
     double w_at_spacing = kernel(normalisation(work->h), work->h, work->spacing / work->h, &slope);
     for (size_t a = begin; a < end; a++) {
-        const struct solver_material_constants *of_a = work->constants + a * work->stride;
         vec acceleration = {0};
         double diffusion = 0.0;
         struct tensor G_a = {{{0}}};
@@ -300,7 +306,7 @@ static void rates(const struct solver_ulsph *work, size_t begin, size_t end)
         }
         store(work->v_rate + a * LANES, acceleration);
         if (work->rho_gradient != NULL) {
-            work->rho_rate[a] += work->terms.delta * work->h * sqrt(of_a->kappa / of_a->rho) * diffusion;
+            work->rho_rate[a] += work->terms.delta * work->h * sound_speed(work, a) * diffusion;
         }
     }
 }
