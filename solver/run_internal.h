@@ -2,6 +2,7 @@
 #ifndef SOLVER_RUN_INTERNAL_H
 #define SOLVER_RUN_INTERNAL_H
 
+#include "solver/contact.h"
 #include "solver/faces.h"
 #include "solver/run.h"
 #include "solver/scheme.h"
@@ -16,6 +17,7 @@ struct solver_run {
     void *system; /* the scheme's; NULL until it is made */
     const struct solver_integrator *integrator;
     struct solver_faces faces;
+    struct solver_contact contact;
     struct solver_state state;
     double time, external; /* [s], [J] */
     size_t step;

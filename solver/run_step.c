@@ -151,11 +151,11 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
         }
         work += stage->weight * dt * power;
     }
-    /* What acts once per step on the state that is complete, as impulses between bodies do, has its place here. */
     run->time += dt;
     run->external += work;
     run->step++;
-    if (solver_run_check(run, error)) {
+    if (solver_run_check(run, error) &&
+        solver_contact_apply(&run->contact, run->state.x, run->state.lanes, run->state.v, error)) {
         return true;
     }
     take_back(run);

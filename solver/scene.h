@@ -50,6 +50,13 @@ enum solver_face_kind {
 /* Evolved sets of 000_e9ec29e1bde7947d.txt: the geometric measures that have an equation of their own. */
 enum solver_evolved { SOLVER_PF, SOLVER_PFJ, SOLVER_PFHJ };
 
+/* What keeps bodies apart (contact.h). */
+enum solver_contact_law {
+    SOLVER_CONTACT_NONE,
+    SOLVER_CONTACT_PAIRWISE,  /* all impulses of a step from the velocities before any of them: as printed */
+    SOLVER_CONTACT_SEQUENTIAL /* one after the other: none gives energy, however many a particle takes part in */
+};
+
 /* What the updated-Lagrangian scheme is made of (001_363f711843f01da4.txt); every ingredient can be left out. */
 enum solver_ulsph_gradient {
     SOLVER_ULSPH_CORRECTED, /* by the corrective matrix L (eq. 27 to 29) */
@@ -150,6 +157,8 @@ struct solver_scene {
     char reconstruction[SOLVER_NAME]; /* "stencil", "least-squares", "none" */
     char volume_flux[SOLVER_NAME];    /* dissipation of J by the jump of "pressure" or of the whole "stress" */
     struct solver_ulsph_terms ulsph;
+    int contact_law;         /* enum solver_contact_law */
+    double contact_distance; /* [m]; 0: the spacing */
     char integrator[SOLVER_NAME];
     double cfl;
     double t_end; /* [s] */

@@ -9,10 +9,11 @@
 /* Of the spacing: wide enough to be made rarely, narrow enough not to add a ring of neighbours on a lattice. */
 static const double margin_of_spacing = 0.2;
 
-bool solver_skin_create(const struct solver_cloud *cloud, double radius, struct solver_skin *skin,
-                        struct solver_error *error)
+bool solver_skin_create(const struct solver_cloud *cloud, double radius, enum solver_pairs which,
+                        struct solver_skin *skin, struct solver_error *error)
 {
-    *skin = (struct solver_skin){.cloud = cloud, .radius = radius, .margin = margin_of_spacing * cloud->spacing};
+    *skin = (struct solver_skin){
+        .cloud = cloud, .radius = radius, .which = which, .margin = margin_of_spacing * cloud->spacing};
     return solver_alloc((void **)&skin->built, cloud->count * (size_t)cloud->dim, sizeof(double), "neighbour list",
                         error) &&
            solver_skin_update(skin, cloud->X, (size_t)cloud->dim, error);
@@ -25,8 +26,8 @@ void solver_skin_free(struct solver_skin *skin)
     *skin = (struct solver_skin){.cloud = NULL};
 }
 
-/* Largest squared way [m^2] that a particle of the piece has gone since the list was made; NaN does not count: the run
- * finds it. */
+/* Largest squared way [m^2] that a particle of the piece has gone since the list was made; infinite where a position
+ * is not finite. */
 static double farthest(const struct solver_skin *skin, const double *x, size_t lanes, struct solver_piece at)
 {
     size_t dim = (size_t)skin->cloud->dim;
@@ -37,29 +38,33 @@ static double farthest(const struct solver_skin *skin, const double *x, size_t l
             double d = x[a * lanes + i] - skin->built[a * dim + i];
             square += d * d;
         }
-        most = fmax(most, square);
+        most = isfinite(square) ? fmax(most, square) : INFINITY;
     }
     return most;
 }
 
-static bool outgrown(const struct solver_skin *skin, const double *x, size_t lanes)
+static double farthest_of_all(const struct solver_skin *skin, const double *x, size_t lanes)
 {
     size_t count = skin->cloud->count;
     double most = 0.0;
-    if (skin->updates == 0) {
-        return true;
-    }
 #pragma omp parallel for schedule(static) reduction(max : most)
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
         most = fmax(most, farthest(skin, x, lanes, solver_piece_at(piece, count)));
     }
-    return 4.0 * most > skin->margin * skin->margin; /* two particles that move towards one another */
+    return most;
 }
 
 bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes, struct solver_error *error)
 {
     size_t dim = (size_t)skin->cloud->dim;
-    if (!outgrown(skin, x, lanes)) {
+    double most = farthest_of_all(skin, x, lanes);
+    if (!isfinite(most)) {
+        return solver_fail(
+            error, SOLVER_BROKE_DOWN,
+            "a particle's position is not finite, or beyond all bounds: the run is unstable. Try a smaller cfl");
+    }
+    /* two particles that move towards one another */
+    if (skin->updates > 0 && 4.0 * most <= skin->margin * skin->margin) {
         return true;
     }
     for (size_t a = 0; a < skin->cloud->count; a++) {
@@ -71,7 +76,7 @@ bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes,
     now.X = skin->built;
     solver_graph_free(&skin->graph);
     skin->updates++;
-    return solver_graph_build(&now, skin->radius + skin->margin, &skin->graph, error);
+    return solver_graph_build_pairs(&now, skin->radius + skin->margin, skin->which, &skin->graph, error);
 }
 
 size_t solver_skin_bytes(const struct solver_skin *skin)

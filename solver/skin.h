@@ -9,14 +9,15 @@
 
 struct solver_skin {
     const struct solver_cloud *cloud;
-    double radius, margin;     /* [m] */
+    double radius, margin; /* [m] */
+    enum solver_pairs which;
     struct solver_graph graph; /* pairs nearer than radius + margin when it was made */
     double *built;             /* [count][dim] where the particles then were [m] */
     size_t updates;            /* how often it was made */
 };
 
-bool solver_skin_create(const struct solver_cloud *cloud, double radius, struct solver_skin *skin,
-                        struct solver_error *error);
+bool solver_skin_create(const struct solver_cloud *cloud, double radius, enum solver_pairs which,
+                        struct solver_skin *skin, struct solver_error *error);
 void solver_skin_free(struct solver_skin *skin);
 /* Makes the list fit the positions x, padded vectors of `lanes` [m]. */
 bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes, struct solver_error *error);
