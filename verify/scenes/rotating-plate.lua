@@ -1,0 +1,30 @@
+-- A square plate spins so fast that it is in tension all over. Particles that see one another by where they are now
+-- clump under tension unless something keeps them apart; those that keep their first neighbours do not.
+title = "Rotating plate"
+source = "001_363f711843f01da4.txt, section 4.2"
+
+parameters = { L = 1, omega = 105 } -- m, rad/s
+
+dim = 2
+domain = { lower = {-L / 2, -L / 2}, upper = {L / 2, L / 2} } -- m
+n = 25
+levels = {25, 50} -- spacings of 4 and 2 cm
+
+scheme = "upwind" -- or "ulsph", the paper's updated-Lagrangian system
+if scheme == "ulsph" then
+    support, integrator, cfl = 2.4, "tvd-rk2", 0.5
+    material = { model = "linear-elastic", E = 17e6, nu = 0.45, rho = 1100 } -- Pa, -, kg/m^3; in rates
+else
+    evolved, stencil, integrator, cfl = "pFHJ", "sbp2", "rk4", 0.5
+    material = { model = "neo-hookean", E = 17e6, nu = 0.45, rho = 1100 }
+end
+t_end = 0.15 -- s, two turns and a half
+
+initial = { velocity = function(X, Y) return -omega * Y, omega * X end }
+
+probes = { { name = "corner", X = {L / 2, L / 2} } }
+
+view = {
+    field = "pressure", range = {-1e6, 1e6}, bands = 20, -- Pa
+    direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 1, size = {900, 900},
+}
