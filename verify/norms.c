@@ -1,5 +1,7 @@
 #include "verify/norms.h"
 
+#include "solver/scheme.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +12,9 @@
     ROW("P", "Pa", "first Piola-Kirchhoff stress, normal components")                                                  \
     ROW("P_all", "Pa", "first Piola-Kirchhoff stress, all components")                                                 \
     ROW("u", "m", "displacement, all components")                                                                      \
-    ROW("F", "-", "deformation gradient less the identity, all components")
+    ROW("F", "-", "deformation gradient less the identity, all components")                                            \
+    ROW("sigma", "Pa", "Cauchy stress, normal components")                                                             \
+    ROW("sigma_all", "Pa", "Cauchy stress, all components")
 #define OF_PROBES(ROW) ROW("probes", "m", "displacement at the probes over time, all components")
 
 /* Norm by norm, in the order of keep() below. */
@@ -30,9 +34,9 @@ _Static_assert(sizeof name_table == VERIFY_ERRORS * sizeof *name_table, "one nam
 _Static_assert(sizeof unit_table == VERIFY_ERRORS * sizeof *unit_table, "one unit per error");
 _Static_assert(sizeof meaning_table == VERIFY_ERRORS * sizeof *meaning_table, "one meaning per error");
 
-const char verify_error_names[] =
-    "p, P, P_all, u, F, probes, each also with _abs, _max, _abs_max or _l1, all but probes also with snapshots_ before "
-    "it, and probes_nrmse";
+const char verify_error_names[] = "p, P, P_all, u, F, sigma, sigma_all, probes, each also with _abs, _max, _abs_max or "
+                                  "_l1, all but probes also with snapshots_ before "
+                                  "it, and probes_nrmse";
 
 /* Unlike fmax, keeps a NaN. */
 static double larger(double a, double b)
@@ -92,51 +96,97 @@ size_t verify_error_find(const char *name)
     return error;
 }
 
+/* The field that an error is of. */
+static enum verify_field field_of(size_t error)
+{
+    return (enum verify_field)((error < VERIFY_SNAPSHOT_ERRORS ? error : error - VERIFY_SNAPSHOT_ERRORS) /
+                               VERIFY_NORMS);
+}
+
+static bool is_of_deformation(enum verify_field field)
+{
+    return field == VERIFY_P || field == VERIFY_P_ALL || field == VERIFY_F;
+}
+
 bool verify_error_applies(const struct solver_scene *scene, size_t error, const char **lacks)
 {
+    const struct solver_scheme *scheme = solver_scheme_find(scene->scheme);
     bool of_snapshots = error >= VERIFY_SNAPSHOT_ERRORS && error < VERIFY_PROBES_NRMSE;
     bool of_probes = !of_snapshots && error >= VERIFY_STATE_ERRORS;
-    *lacks = of_snapshots && scene->snapshot_count == 0                  ? "snapshots"
-             : of_probes && scene->probe_count == 0                      ? "probes"
-             : error == VERIFY_PROBES_NRMSE && !(scene->probe_scale > 0) ? "probe_scale"
-                                                                         : NULL;
+    bool deformation = scheme == NULL || scheme->deformation;
+    *lacks = of_snapshots && scene->snapshot_count == 0                         ? "snapshots"
+             : of_probes && scene->probe_count == 0                             ? "probes"
+             : error == VERIFY_PROBES_NRMSE && !(scene->probe_scale > 0)        ? "probe_scale"
+             : !of_probes && !deformation && is_of_deformation(field_of(error)) ? "scheme set to one that knows F and P"
+                                                                                : NULL;
     return *lacks == NULL;
 }
 
-static size_t field_width(enum verify_field field, size_t dim)
+/* Where a field lies: a vector [dim], or a tensor with rows of the given length, of which the normal components alone
+ * may count. */
+struct place {
+    const double *of;
+    bool tensor, normal_only;
+    size_t row;
+};
+
+static struct place computed_at(enum verify_field field, const struct solver_output *output, size_t a)
 {
-    return field == VERIFY_P_ALL || field == VERIFY_F ? dim * dim : dim;
+    size_t dim = (size_t)output->cloud->dim;
+    bool stress = field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL;
+    const double *tensor = stress ? output->sigma : field == VERIFY_F ? output->F : output->P;
+    bool normal = field == VERIFY_P || field == VERIFY_SIGMA;
+    if (field == VERIFY_p || field == VERIFY_u) {
+        return (struct place){(field == VERIFY_u ? output->u : output->p) + a * dim, false, false, 0};
+    }
+    return (struct place){tensor != NULL ? tensor + a * dim * dim : NULL, true, normal, dim};
 }
 
-/* One particle's components of a field. Vectors are read with their own stride; `stride` is the row length of the
- * tensors, dim for the solver and 3 for an oracle. */
-static void gather(enum verify_field field, size_t dim, size_t stride, const double *vector, const double *tensor,
-                   double *out)
+/* sigma: where an oracle's Cauchy stress may go. */
+static struct place exact_at(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
+                             double sigma[9])
 {
+    bool stress = field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL;
+    bool normal = field == VERIFY_P || field == VERIFY_SIGMA;
+    if (field == VERIFY_p || field == VERIFY_u) {
+        return (struct place){field == VERIFY_u ? state->u : state->p, false, false, 0};
+    }
+    if (stress) {
+        oracle_cauchy(kind, state, sigma);
+    }
+    return (struct place){stress ? sigma : field == VERIFY_F ? state->F : state->P, true, normal, 3};
+}
+
+/* One particle's components of a field; returns how many. `shift` is taken from the diagonal. */
+static size_t gather(struct place place, size_t dim, double shift, double *out)
+{
+    size_t width = 0;
     for (size_t i = 0; i < dim; i++) {
-        if (field == VERIFY_p || field == VERIFY_u) {
-            out[i] = vector[i];
-        } else if (field == VERIFY_P) {
-            out[i] = tensor[i * stride + i];
-        } else {
-            for (size_t j = 0; j < dim; j++) {
-                out[i * dim + j] = tensor[i * stride + j] - (field == VERIFY_F && i == j ? 1.0 : 0.0);
+        for (size_t j = 0; j < (place.tensor ? dim : 1); j++) {
+            if (!place.tensor) {
+                out[width++] = place.of[i];
+            } else if (!place.normal_only || i == j) {
+                out[width++] = place.of[i * place.row + j] - (i == j ? shift : 0.0);
             }
         }
     }
+    return width;
 }
 
 static struct verify_norms measure(enum verify_field field, const struct solver_output *output,
-                                   const struct oracle_state *state, double *computed, double *exact)
+                                   const struct oracle_kind *kind, const struct oracle_state *state, double *computed,
+                                   double *exact)
 {
     size_t dim = (size_t)output->cloud->dim;
-    size_t width = field_width(field, dim);
+    size_t width = 0;
+    double shift = field == VERIFY_F ? 1.0 : 0.0;
+    double sigma[9];
+    if (computed_at(field, output, 0).of == NULL) {
+        return (struct verify_norms){NAN, NAN, NAN, NAN, NAN}; /* the scheme does not know it */
+    }
     for (size_t a = 0; a < output->cloud->count; a++) {
-        const double *vector = (field == VERIFY_u ? output->u : output->p) + a * dim;
-        const double *tensor = (field == VERIFY_F ? output->F : output->P) + a * dim * dim;
-        gather(field, dim, dim, vector, tensor, computed + a * width);
-        gather(field, dim, 3, field == VERIFY_u ? state[a].u : state[a].p, field == VERIFY_F ? state[a].F : state[a].P,
-               exact + a * width);
+        width = gather(computed_at(field, output, a), dim, shift, computed + a * width);
+        (void)gather(exact_at(field, kind, &state[a], sigma), dim, shift, exact + a * width);
     }
     return verify_norms_field(output->cloud->count, width, output->V, computed, exact);
 }
@@ -196,7 +246,7 @@ bool verify_norms_state(const struct solver_output *output, const struct oracle_
         kind->state(oracle, X, output->time, &state[a]);
     }
     for (size_t field = 0; done && field < VERIFY_STATE_FIELDS; field++) {
-        keep(error, (enum verify_field)field, measure((enum verify_field)field, output, state, computed, exact));
+        keep(error, (enum verify_field)field, measure((enum verify_field)field, output, kind, state, computed, exact));
     }
     free(state);
     free(computed);

@@ -29,18 +29,21 @@ struct verify_norms verify_norms_field(size_t count, size_t width, const double 
 
 /* Fields that are compared. */
 enum verify_field {
-    VERIFY_p,      /* linear momentum, all components */
-    VERIFY_P,      /* normal components of the first Piola-Kirchhoff stress */
-    VERIFY_P_ALL,  /* all components of it */
-    VERIFY_u,      /* displacement, all components */
-    VERIFY_F,      /* F - I, all components: the deviation, since |F| itself is 1 and hides it */
+    VERIFY_p,     /* linear momentum, all components */
+    VERIFY_P,     /* normal components of the first Piola-Kirchhoff stress */
+    VERIFY_P_ALL, /* all components of it */
+    VERIFY_u,     /* displacement, all components */
+    VERIFY_F,     /* F - I, all components: the deviation, since |F| itself is 1 and hides it */
+    VERIFY_SIGMA, /* normal components of the Cauchy stress */
+    VERIFY_SIGMA_ALL,
     VERIFY_PROBES, /* displacement at the probes, all components; sums over rows of the time history instead of
                       particles, each with weight 1, so that "probes_abs" is the root mean square error over time */
     VERIFY_FIELDS,
     VERIFY_STATE_FIELDS = VERIFY_PROBES /* those of a state at one time */
 };
 
-/* Errors have names: "p", "P", "P_all", "u", "F", "probes" are relative L2 norms; with "_abs" absolute L2, with "_max"
+/* Errors have names: "p", "P", "P_all", "u", "F", "sigma", "sigma_all",
+ * "probes" are relative L2 norms; with "_abs" absolute L2, with "_max"
  * relative max, with "_abs_max" absolute max, with "_l1" relative L1. With "snapshots_" before the name of a state's
  * error, the largest of it over the scene's snapshots. "probes_nrmse" is probes_abs over the scene's probe_scale. */
 enum {
@@ -60,7 +63,8 @@ const char *verify_error_meaning(size_t error);
 size_t verify_error_find(const char *name);
 /* What names there are, for messages. */
 extern const char verify_error_names[];
-/* Whether the scene has what the error is of; if not, *lacks says what is missing: "snapshots". */
+/* Whether the scene has what the error is of; if not, *lacks says what is missing: "snapshots", or a scheme that knows
+ * the field. */
 bool verify_error_applies(const struct solver_scene *scene, size_t error, const char **lacks);
 
 /* Errors of the present state against an oracle at its time. False if there is no memory. */

@@ -48,11 +48,11 @@ probes = { { name = "left end", X = {0} }, { name = "interface", X = {L1} }, { n
 
 -- Relative L1 error of the stress at 1.2 mm, and its order from 2.4 mm.
 gates = {
-    { when = { stencil = "sbp4", integrator = "rk4", cfl = 0.8 }, snapshots_P_l1 = 5e-4, ["rate snapshots_P_l1"] = 1.4 },
-    { when = { stencil = "sbp2", integrator = "tvd-rk2", cfl = 0.3 }, snapshots_P_l1 = 4e-3, ["rate snapshots_P_l1"] = 1.2 },
+    { when = { stencil = "sbp4", integrator = "rk4", cfl = 0.8 }, snapshots_sigma_l1 = 5e-4, ["rate snapshots_sigma_l1"] = 1.4 },
+    { when = { stencil = "sbp2", integrator = "tvd-rk2", cfl = 0.3 }, snapshots_sigma_l1 = 4e-3, ["rate snapshots_sigma_l1"] = 1.2 },
 }
 
 view = {
-    field = "P_xx", range = {-33e6, 33e6}, bands = 11, -- Pa
+    field = "sigma_xx", range = {-33e6, 33e6}, bands = 11, -- Pa
     direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 1000, size = {1200, 400},
 }

@@ -37,6 +37,6 @@ gates = {
 }
 
 view = {
-    field = "P_xx", range = {-5.5e4, 5.5e4}, bands = 11, -- Pa
+    field = "sigma_xx", range = {-5.5e4, 5.5e4}, bands = 11, -- Pa
     direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 1, size = {1200, 600},
 }

@@ -46,6 +46,6 @@ gates = {
 }
 
 view = {
-    field = "P_xx", range = {-2.2e8, 2.2e8}, bands = 11, -- Pa
+    field = "sigma_xx", range = {-2.2e8, 2.2e8}, bands = 11, -- Pa
     direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 100, size = {1200, 400},
 }
