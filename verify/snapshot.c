@@ -20,7 +20,9 @@ static bool keep_profile(const struct solver_output *output, const struct oracle
         const double X[3] = {output->cloud->X[a], 0, 0};
         struct oracle_state state;
         kind->state(oracle, X, output->time, &state);
-        snapshot->point[a] = (struct verify_point){.X = X[0], .computed = output->P[a], .exact = state.P[0]};
+        double sigma[9];
+        oracle_cauchy(kind, &state, sigma);
+        snapshot->point[a] = (struct verify_point){.X = X[0], .computed = output->sigma[a], .exact = sigma[0]};
     }
     qsort(snapshot->point, snapshot->count, sizeof *snapshot->point, by_place);
     return true;

@@ -6,7 +6,7 @@
 
 /* Stress along a one-dimensional body at one particle. */
 struct verify_point {
-    double X, computed, exact; /* [m], [Pa], [Pa]: first Piola-Kirchhoff stress P_xx */
+    double X, computed, exact; /* [m], [Pa], [Pa]: Cauchy stress sigma_xx */
 };
 
 struct verify_snapshot {
