@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Of the spacing: wide enough to be made rarely, narrow enough not to add a ring of neighbours on a lattice. */
 static const double margin_of_spacing = 0.2;
@@ -67,16 +68,13 @@ bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes,
     if (skin->updates > 0 && 4.0 * most <= skin->margin * skin->margin) {
         return true;
     }
+    struct solver_points now = {
+        .dim = skin->cloud->dim, .count = skin->cloud->count, .stride = lanes, .x = x, .body = skin->cloud->body};
     for (size_t a = 0; a < skin->cloud->count; a++) {
-        for (size_t i = 0; i < dim; i++) {
-            skin->built[a * dim + i] = x[a * lanes + i];
-        }
+        memcpy(skin->built + a * dim, x + a * lanes, dim * sizeof *x);
     }
-    struct solver_cloud now = *skin->cloud;
-    now.X = skin->built;
-    solver_graph_free(&skin->graph);
     skin->updates++;
-    return solver_graph_build_pairs(&now, skin->radius + skin->margin, skin->which, &skin->graph, error);
+    return solver_graph_update(&skin->graph, &now, skin->which, skin->radius + skin->margin, error);
 }
 
 size_t solver_skin_bytes(const struct solver_skin *skin)
