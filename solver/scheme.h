@@ -52,7 +52,9 @@ struct solver_scheme {
     const char *name, *summary;
     const struct solver_scheme_choice *choice; /* ends with a NULL text; NULL: none */
     bool deformation;                          /* it knows F, H and P */
-    const char *advice;                        /* what to try when a particle breaks */
+    bool stencil; /* it stands on the scene's stencil: keys evolved, stencil, reconstruction and volume_flux are for it
+                   */
+    const char *advice; /* what to try when a particle breaks */
 
     /* Geometry and terms, for the scene's keys. The fields come later. */
     bool (*create)(const struct solver_body *body, void **system, struct solver_error *error);

@@ -321,6 +321,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .summary = "total-Lagrangian mixed method with Riemann dissipation (000_e9ec29e1bde7947d.txt)",
     .choice = choices,
     .deformation = true,
+    .stencil = true,
     .advice = "a smaller cfl, a finer n, or evolved = \"pFHJ\"",
     .create = create,
     .destroy = destroy,

@@ -11,7 +11,7 @@ TOP = {"scene", "oracle", "scheme", "stencil", "levels", "rates", "gates", "pass
 LEVEL = {"n", "h", "particles", "steps", "seconds", "ns_per_particle_step", "errors", "snapshots"}
 SNAPSHOT = {"t", "errors"}
 GATE = {"name", "value", "bound", "op", "pass"}
-STATE = {f + e for f in ("p", "P", "P_all", "u", "F") for e in ("", "_abs", "_max", "_abs_max", "_l1")}
+STATE = {f + e for f in ("p", "P", "P_all", "u", "F", "sigma", "sigma_all") for e in ("", "_abs", "_max", "_abs_max", "_l1")}
 PROBES = {"probes" + e for e in ("", "_abs", "_max", "_abs_max", "_l1")}
 ERRORS = STATE | PROBES
 

@@ -2,6 +2,7 @@
 #include "verify/commands.h"
 #include "verify/find.h"
 #include "verify/simulate.h"
+#include "verify/study.h"
 
 #include "solver/integrator.h"
 #include "solver/run.h"
@@ -84,15 +85,16 @@ static const char *said(const struct verify_options *options, const char *key)
     return NULL;
 }
 
-/* Adds KEY=VALUE unless the command line says something of the key. */
+/* Adds KEY=VALUE unless the command line says something of the key, or there is no value. */
 static void set(struct verify_options *options, const char *key, char text[SOLVER_NAME], const char *value)
 {
-    if (said(options, key) == NULL && options->override_count < VERIFY_OVERRIDES) {
+    if (value != NULL && said(options, key) == NULL && options->override_count < VERIFY_OVERRIDES) {
         (void)snprintf(text, SOLVER_NAME, "%s=%s", key, value);
         options->override[options->override_count++] = text;
     }
 }
 
+/* `stencil` and `evolved` are NULL where the scheme has none. */
 static bool row(const struct verify_options *options, const char *stencil, const char *evolved,
                 struct solver_error *error)
 {
@@ -115,8 +117,9 @@ static bool row(const struct verify_options *options, const char *stencil, const
         double per_particle = 1e9 * seconds / particles;
         double bandwidth = triad(facts.bytes_per_particle * particles, facts.threads);
         double limit = bandwidth > 0.0 ? 1e9 * facts.step_traffic / bandwidth : NAN;
-        (void)printf("%-8s %-6s %10zu %10.1f %8.1f %10.1f %10.2f %8.0f %8.0f %10.1f %8.0f %%\n", stencil, evolved,
-                     facts.particles, neighbours, facts.setup_seconds, per_particle,
+        (void)printf("%-8s %-6s %10zu %10.1f %8.1f %10.1f %10.2f %8.0f %8.0f %10.1f %8.0f %%\n",
+                     stencil != NULL ? stencil : "-", evolved != NULL ? evolved : "-", facts.particles, neighbours,
+                     facts.setup_seconds, per_particle,
                      per_particle / (neighbours * solver_integrator_find(scene->integrator)->stages),
                      facts.bytes_per_particle, facts.step_traffic, 1e-9 * bandwidth, 100.0 * limit / per_particle);
         (void)fflush(stdout);
@@ -126,22 +129,37 @@ static bool row(const struct verify_options *options, const char *stencil, const
     return done;
 }
 
-int verify_command_bench(const struct verify_options *options)
+/* A row for each stencil and evolved set, as far as the command line leaves them open. */
+static bool rows(const struct verify_options *options, struct solver_error *error)
 {
     static const char *const evolved[] = {"pF", "pFJ", "pFHJ"};
-    struct solver_error error = {.code = SOLVER_OK};
-    (void)printf("%-8s %-6s %10s %10s %8s %10s %10s %8s %8s %10s %10s\n", "stencil", "set", "particles", "neighbours",
-                 "set-up s", "ns/p-step", "ns/nb-rhs", "B/part.", "B moved", "triad GB/s", "of limit");
     for (const struct solver_stencil_builder *builder = solver_stencil_builders(); builder->name != NULL; builder++) {
         for (size_t i = 0; i < sizeof evolved / sizeof *evolved; i++) {
             const char *only_stencil = said(options, "stencil");
             const char *only_evolved = said(options, "evolved");
             bool wanted = (only_stencil == NULL || strcmp(only_stencil, builder->name) == 0) &&
                           (only_evolved == NULL || strcmp(only_evolved, evolved[i]) == 0);
-            if (wanted && !row(options, builder->name, evolved[i], &error)) {
-                return verify_complain(&error);
+            if (wanted && !row(options, builder->name, evolved[i], error)) {
+                return false;
             }
         }
+    }
+    return true;
+}
+
+int verify_command_bench(const struct verify_options *options)
+{
+    struct solver_error error = {.code = SOLVER_OK};
+    struct solver_scene *scene = NULL;
+    if (!verify_scene_open(options, 0, &scene, &error)) {
+        return verify_complain(&error);
+    }
+    bool stencil = verify_has_stencil(scene);
+    solver_scene_free(scene);
+    (void)printf("%-8s %-6s %10s %10s %8s %10s %10s %8s %8s %10s %10s\n", "stencil", "set", "particles", "neighbours",
+                 "set-up s", "ns/p-step", "ns/nb-rhs", "B/part.", "B moved", "triad GB/s", "of limit");
+    if (stencil ? !rows(options, &error) : !row(options, NULL, NULL, &error)) {
+        return verify_complain(&error);
     }
     (void)printf(
         "\nns/p-step: one particle's step, best of %d samples. ns/nb-rhs: the same per neighbour and right-hand side.\n"

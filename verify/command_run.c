@@ -9,14 +9,15 @@
 
 static void print_facts(const struct solver_scene *scene, const struct solver_facts *facts)
 {
+    char residual[VERIFY_RESIDUAL];
     double particle_steps = (double)facts->particles * (double)facts->steps;
     (void)printf("%s (%s)\n", scene->title, scene->path);
     (void)printf("  %zu particles, spacing %.6g m, %zu pairs, %zu steps to t = %.6g s on %d threads\n",
                  facts->particles, facts->spacing, facts->pairs, facts->steps, scene->t_end, facts->threads);
     (void)printf("  set up in %.3f s, ran for %.3f s: %.1f ns per particle-step\n", facts->setup_seconds,
                  facts->seconds, 1e9 * facts->seconds / particle_steps);
-    (void)printf("  %.0f bytes per particle, %.0f of them fields of the scheme; stencil residual %.2e [-]\n",
-                 facts->bytes_per_particle, facts->state_bytes, facts->stencil_residual);
+    (void)printf("  %.0f bytes per particle, %.0f of them fields of the scheme%s\n", facts->bytes_per_particle,
+                 facts->state_bytes, verify_residual(residual, facts));
 }
 
 /* Record and picture of a finished run. The picture is drawn from the record as read back, which proves that it can

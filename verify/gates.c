@@ -54,6 +54,13 @@ static bool judge_bound(const struct solver_scene *scene, size_t index, const st
     return true;
 }
 
+/* A rule for other configurations may name a field that this scene's scheme does not know. */
+static bool is_unknown(const struct solver_scene *scene, const char *name)
+{
+    size_t error = verify_level_error(name, NULL);
+    return error < VERIFY_ERRORS && !verify_error_known(scene, error);
+}
+
 bool verify_gates_judge(const struct solver_scene *scene, const struct verify_level *finest, struct verify_gates *gates,
                         struct solver_error *why)
 {
@@ -68,12 +75,16 @@ bool verify_gates_judge(const struct solver_scene *scene, const struct verify_le
     gates->general = !any_with_conditions;
     gates->pass = true;
     for (size_t i = 0; i < scene->gate_count; i++) {
+        bool judged = met[i] && !(any_with_conditions && scene->gate[i].conditions == 0);
         for (size_t j = 0; j < scene->gate[i].bounds; j++) {
             struct verify_gate gate = {.pass = false};
+            if (!judged && is_unknown(scene, scene->gate[i].bound[j].name)) {
+                continue;
+            }
             if (!judge_bound(scene, i, &scene->gate[i].bound[j], finest, &gate, why)) {
                 return false;
             }
-            if (met[i] && !(any_with_conditions && scene->gate[i].conditions == 0)) {
+            if (judged) {
                 gates->gate[gates->count++] = gate;
                 gates->pass = gates->pass && gate.pass;
             }

@@ -3,12 +3,21 @@
 #include <math.h>
 #include <string.h>
 
+size_t verify_level_error(const char *name, bool *is_rate)
+{
+    static const char prefix[] = "rate ";
+    bool rate = strncmp(name, prefix, sizeof prefix - 1) == 0;
+    if (is_rate != NULL) {
+        *is_rate = rate;
+    }
+    return verify_error_find(name + (rate ? sizeof prefix - 1 : 0));
+}
+
 bool verify_level_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
                         const char *where, struct verify_value *value, struct solver_error *error)
 {
-    static const char prefix[] = "rate ";
-    bool is_rate = strncmp(name, prefix, sizeof prefix - 1) == 0;
-    size_t which = verify_error_find(name + (is_rate ? sizeof prefix - 1 : 0));
+    bool is_rate;
+    size_t which = verify_level_error(name, &is_rate);
     const char *lacks = NULL;
     if (which == VERIFY_ERRORS) {
         return solver_fail(error, SOLVER_BAD_INPUT,

@@ -23,6 +23,9 @@ struct verify_value {
     const char *unit;
 };
 
+/* The error that a gate's name is of, VERIFY_ERRORS if there is none; *is_rate (may be NULL): "rate " stands before it.
+ */
+size_t verify_level_error(const char *name, bool *is_rate);
 /* The value a gate names: an error, or "rate " and an error. If the scene cannot have it, fails (SOLVER_BAD_INPUT)
  * with what there is; the text begins with `where`. */
 bool verify_level_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,

@@ -262,3 +262,9 @@ void verify_norms_worst(size_t snapshots_before, const double of_snapshot[VERIFY
         worst[i] = snapshots_before == 0 ? of_snapshot[i] : larger(worst[i], of_snapshot[i]);
     }
 }
+
+bool verify_error_known(const struct solver_scene *scene, size_t error)
+{
+    const struct solver_scheme *scheme = solver_scheme_find(scene->scheme);
+    return scheme == NULL || scheme->deformation || !is_of_deformation(field_of(error));
+}

@@ -78,4 +78,7 @@ bool verify_norms_probes(const struct solver_history *history, const struct orac
 void verify_norms_worst(size_t snapshots_before, const double of_snapshot[VERIFY_STATE_ERRORS],
                         double error[VERIFY_ERRORS]);
 
+/* Whether the scene's scheme knows the field that the error is of: not all have F and P. */
+bool verify_error_known(const struct solver_scene *scene, size_t error);
+
 #endif

@@ -11,6 +11,9 @@
 void verify_terminal_begin(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
 void verify_terminal_level(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
 void verify_terminal_end(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
+/* ", stencil residual 1.2e-15 [-]", or nothing where there is no stencil. */
+enum { VERIFY_RESIDUAL = 48 };
+const char *verify_residual(char text[VERIFY_RESIDUAL], const struct solver_facts *facts);
 /* Conserved quantities at the start and the end of a run. */
 void verify_terminal_totals(FILE *file, const struct solver_totals *first, const struct solver_totals *last);
 

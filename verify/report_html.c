@@ -110,11 +110,15 @@ static void setting(FILE *file, const struct solver_scene *scene, const char *ke
 static void configuration(FILE *file, const struct solver_scene *scene)
 {
     static const char *const key[] = {"material.model", "material.E", "material.nu", "material.rho", "scheme",
-                                      "evolved",        "stencil",    "support",     "perturb",      "reconstruction",
-                                      "integrator",     "cfl",        "t_end",       "precision"};
+                                      "support",        "perturb",    "integrator",  "cfl",          "t_end",
+                                      "precision"};
+    static const char *const of_stencil[] = {"evolved", "stencil", "reconstruction"};
     (void)fprintf(file, "<h2>Configuration</h2><table><tr><th>key</th><th>value</th></tr>\n");
     for (size_t i = 0; i < sizeof key / sizeof *key; i++) {
         setting(file, scene, key[i]);
+    }
+    for (size_t i = 0; verify_has_stencil(scene) && i < sizeof of_stencil / sizeof *of_stencil; i++) {
+        setting(file, scene, of_stencil[i]);
     }
     (void)fprintf(file, "</table>\n<p class=\"note\">In SI units. Overrides given: ");
     escape(file, scene->overrides[0] != '\0' ? scene->overrides : "none");
@@ -269,11 +273,12 @@ static void quantities(FILE *file, const struct verify_study *study)
                       "xyz"[i], a -> angular[i], b -> angular[i]);
     }
     const struct solver_facts *facts = &study->level[study->level_count - 1].facts;
+    char residual[VERIFY_RESIDUAL];
     (void)fprintf(file,
                   "</table>\n<p class=\"note\">%zu pairs, %.0f bytes per particle (%.0f of them fields of the scheme), "
-                  "stencil residual %.2e [-], set up in %.2f s, %d threads.</p>\n",
-                  facts->pairs, facts->bytes_per_particle, facts->state_bytes, facts->stencil_residual,
-                  facts->setup_seconds, facts->threads);
+                  "set up in %.2f s, %d threads%s.</p>\n",
+                  facts->pairs, facts->bytes_per_particle, facts->state_bytes, facts->setup_seconds, facts->threads,
+                  verify_residual(residual, facts));
 }
 
 static void traces(FILE *file, const struct verify_study *study)

@@ -63,7 +63,7 @@ static void number_member(FILE *file, const char *key, double value)
     number(file, value);
 }
 
-/* {NAME: value} over the first `count` errors, of which only those that the scene can have. */
+/* {NAME: value} over the first `count` errors, of which only those that the scene and its scheme can have. */
 static void errors(FILE *file, const struct solver_scene *scene, size_t count, const double *value)
 {
     const char *lacks = NULL;
@@ -148,7 +148,7 @@ void verify_json(FILE *file, const struct verify_study *study)
     (void)fputs(",\n  ", file);
     text_member(file, "scheme", study->scene->scheme);
     (void)fputs(",\n  ", file);
-    text_member(file, "stencil", study->scene->stencil);
+    text_member(file, "stencil", verify_has_stencil(study->scene) ? study->scene->stencil : "none");
     (void)fputs(",\n  \"levels\": [", file);
     for (size_t i = 0; i < study->level_count; i++) {
         (void)fputs(i == 0 ? "\n    " : ",\n    ", file);

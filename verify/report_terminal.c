@@ -68,10 +68,12 @@ void verify_terminal_begin(FILE *file, const struct verify_study *study, const s
 {
     const struct solver_scene *scene = study->scene;
     (void)fprintf(file, "%s (%s)\n", scene->title, scene->path);
-    (void)fprintf(file,
-                  "scheme     %s %s, stencil %s, support %.4g spacings, %s, CFL %.4g, material %s, t_end %.6g s\n",
-                  scene->scheme, evolved_name[scene->evolved], scene->stencil, scene->support, scene->integrator,
-                  scene->cfl, scene->material_model, scene->t_end);
+    (void)fprintf(file, "scheme     %s", scene->scheme);
+    if (verify_has_stencil(scene)) {
+        (void)fprintf(file, " %s, stencil %s", evolved_name[scene->evolved], scene->stencil);
+    }
+    (void)fprintf(file, ", support %.4g spacings, %s, CFL %.4g, material %s, t_end %.6g s\n", scene->support,
+                  scene->integrator, scene->cfl, scene->material_model, scene->t_end);
     print_truth(file, study->truth);
     if (!study->truth->proven) {
         return;
@@ -153,14 +155,22 @@ static void print_snapshots(FILE *file, const struct verify_study *study, const 
     (void)fprintf(file, "\n");
 }
 
+const char *verify_residual(char text[VERIFY_RESIDUAL], const struct solver_facts *facts)
+{
+    (void)snprintf(text, VERIFY_RESIDUAL, isnan(facts->stencil_residual) ? "" : ", stencil residual %.2e [-]",
+                   facts->stencil_residual);
+    return text;
+}
+
 static void print_facts(FILE *file, const struct verify_study *study)
 {
     const struct solver_facts *facts = &study->level[study->level_count - 1].facts;
+    char residual[VERIFY_RESIDUAL];
     (void)fprintf(file,
                   "\nfinest level: %zu pairs (%.1f per particle), %.0f bytes per particle (%.0f of them fields of the "
-                  "scheme),\n  stencil residual %.2e [-], set up in %.2f s, %d threads\n",
+                  "scheme),\n  set up in %.2f s, %d threads%s\n",
                   facts->pairs, (double)facts->pairs / (double)facts->particles, facts->bytes_per_particle,
-                  facts->state_bytes, facts->stencil_residual, facts->setup_seconds, facts->threads);
+                  facts->state_bytes, facts->setup_seconds, facts->threads, verify_residual(residual, facts));
     double kinetic = NAN, strain = NAN;
     study->truth->kind->energy(study->truth->oracle, study->last.time, &kinetic, &strain);
     (void)fprintf(file, "  energy at the end: kinetic %.6g J (exact %.6g J), strain %.6g J (exact %.6g J)\n",

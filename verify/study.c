@@ -1,5 +1,7 @@
 #include "verify/study.h"
 
+#include "solver/scheme.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -124,6 +126,12 @@ double verify_published(const struct solver_scene *scene, int n, const char *err
     return NAN;
 }
 
+bool verify_has_stencil(const struct solver_scene *scene)
+{
+    const struct solver_scheme *scheme = solver_scheme_find(scene->scheme);
+    return scheme == NULL || scheme->stencil;
+}
+
 static void want(bool wanted[VERIFY_ERRORS], size_t error)
 {
     if (error < VERIFY_ERRORS) {
@@ -134,10 +142,6 @@ static void want(bool wanted[VERIFY_ERRORS], size_t error)
 size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], struct solver_error *error)
 {
     bool wanted[VERIFY_ERRORS] = {false};
-    if (scene->published_count == 0 && scene->gate_count == 0) {
-        want(wanted, verify_error_find("p"));
-        want(wanted, verify_error_find("P"));
-    }
     for (size_t i = 0; i < scene->published_count; i++) {
         for (size_t j = 0; j < scene->published[i].count; j++) {
             const char *name = scene->published[i].value[j].name;
@@ -153,14 +157,18 @@ size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS
     for (size_t i = 0; i < scene->gate_count; i++) {
         for (size_t j = 0; j < scene->gate[i].bounds; j++) {
             const char *name = scene->gate[i].bound[j].name;
-            want(wanted, verify_error_find(strncmp(name, "rate ", 5) == 0 ? name + 5 : name));
+            want(wanted, verify_level_error(name, NULL));
         }
     }
     size_t count = 0;
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
-        if (wanted[i]) {
+        if (wanted[i] && verify_error_known(scene, i)) {
             shown[count++] = i;
         }
+    }
+    if (count == 0) {
+        shown[count++] = verify_error_find("p");
+        shown[count++] = verify_error_find(verify_error_known(scene, verify_error_find("P")) ? "P" : "sigma");
     }
     return count;
 }

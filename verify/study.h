@@ -54,8 +54,11 @@ const char *verify_verdict(const struct verify_study *study);
  * changed what is simulated (material, times, parameters, ...) rather than how. */
 double verify_published(const struct solver_scene *scene, int n, const char *error_name);
 
-/* Errors worth a column: those published and those that a gate judges; p and P where there are none. Returns how many.
- * Fails with 0 (SOLVER_BAD_INPUT) on a published name that is no error. */
+/* Whether the scene's scheme stands on the scene's stencil. */
+bool verify_has_stencil(const struct solver_scene *scene);
+/* Errors worth a column: those published and those that gates name, as far as the scheme knows their fields; where
+ * there are none p and P, or sigma where the scheme has no P. Returns how many. Fails with 0 (SOLVER_BAD_INPUT) on a
+ * published name that is no error. */
 size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], struct solver_error *error);
 /* Of those, the ones that are the largest over the snapshots: which error of a state each is the largest of. */
 size_t verify_shown_snapshots(const size_t *shown, size_t shown_count, size_t of_state[VERIFY_STATE_ERRORS]);

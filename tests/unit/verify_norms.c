@@ -101,6 +101,33 @@ static void components_counted(void)
     CU_ASSERT(error[verify_error_find("u")] == 0);
 }
 
+/* Of a deformation that is not small, sigma = P F^T / J; what the scheme does not know is measured by nothing. */
+static void cauchy_stress(void)
+{
+    struct oracle_kind kind = {.state = constant_state, .finite_strain = true};
+    double X[] = {1, 0}, V[] = {2};
+    struct solver_cloud cloud = {.dim = 2, .count = 1, .X = X};
+    /* exact: P = 1 2 / 4 5 with F = diag(2, 1) makes sigma = 1 1 / 4 2.5; off by 2 in xx and by 3 in xy */
+    const double u[] = {1, 1}, p[] = {3, 4}, sigma[] = {3, 4, 4, 2.5};
+    const struct solver_output output = {.cloud = &cloud, .time = 1, .V = V, .u = u, .p = p, .sigma = sigma};
+    static const char *const unknown[] = {"F", "P", "P_all", "P_l1", "F_abs_max"};
+    double error[VERIFY_STATE_ERRORS];
+    struct solver_error why;
+    CU_ASSERT_TRUE_FATAL(verify_norms_state(&output, &kind, NULL, error, &why));
+    check(error[verify_error_find("sigma")], 2 / sqrt(7.25));
+    check(error[verify_error_find("sigma_abs")], 2);
+    check(error[verify_error_find("sigma_all_abs")], sqrt(13));
+    check(error[verify_error_find("sigma_all")], sqrt(13 / 24.25));
+    CU_ASSERT(error[verify_error_find("p")] == 0 && error[verify_error_find("u")] == 0);
+    for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
+        CU_ASSERT(isnan(error[verify_error_find(unknown[i])]));
+    }
+    kind.finite_strain = false; /* P itself: 1 2 / 4 5 */
+    CU_ASSERT_TRUE_FATAL(verify_norms_state(&output, &kind, NULL, error, &why));
+    check(error[verify_error_find("sigma_abs")], sqrt(4 + 6.25));
+    check(error[verify_error_find("sigma_all_abs")], sqrt(4 + 4 + 6.25));
+}
+
 /* Two probes at X = 3 and X = 0, three times: exact u = (X, t, 0). */
 static void probes_over_time(void)
 {
@@ -201,6 +228,7 @@ int main(void)
         {"NaN shows", nan_shows},
         {"infinity shows", infinity_is_no_small_error},
         {"components counted", components_counted},
+        {"Cauchy stress", cauchy_stress},
         {"probes over time", probes_over_time},
         {"largest over the snapshots", worst_of_snapshots},
         {"errors that a scene can have", errors_that_apply},
