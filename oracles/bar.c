@@ -1,10 +1,11 @@
 #include "oracles/bar.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+static const double MOST_TRAVEL = 100; /* times of travel must be as near as this to each other */
+static const double MOST_WAVES = 1e6;  /* radians from the origin to the far end */
 
 struct bar bar_make(double lower, double length, double E, double rho)
 {
@@ -29,25 +30,30 @@ void bar_state(const struct bar *bar, double u, double v, double stress, struct 
     state->P[0] = stress;
 }
 
-bool bar_representable(const double *size, size_t count)
+bool bar_pair_fits(const struct bar *first, const struct bar *second, char why[ORACLE_WHY])
 {
-    for (size_t i = 0; i < count; i++) {
-        if (!(fabs(size[i]) >= DBL_MIN / DBL_EPSILON && fabs(size[i]) <= DBL_MAX * DBL_EPSILON)) {
-            return false;
-        }
+    double T1 = first->T, T2 = second->T;
+    if (fmax(T1, T2) > MOST_TRAVEL * fmin(T1, T2)) {
+        (void)snprintf(why, ORACLE_WHY,
+                       "L1 = %g m and L2 = %g m are crossed by waves in %g s and %g s, but neither may take more than "
+                       "%g times as long as the other; L2 = %g would do",
+                       first->upper - first->lower, second->upper - second->lower, T1, T2, MOST_TRAVEL, T1 * second->c);
+        return false;
     }
     return true;
 }
 
-bool bar_create(const void *oracle, size_t size, struct oracle **out, char why[ORACLE_WHY])
+bool bar_is_resolved(const struct bar *second, double frequency, char why[ORACLE_WHY])
 {
-    void *copy = malloc(size);
-    if (copy == NULL) {
-        (void)snprintf(why, ORACLE_WHY, "no memory for %zu bytes", size);
+    double farthest = MOST_WAVES * second->c / frequency;
+    if (second->upper > farthest) {
+        (void)snprintf(why, ORACLE_WHY,
+                       "L2 = %g m: the right bar ends at X = %g m, but waves in it run with %g m/s and have up to %g "
+                       "rad/s, and for these places beyond X = %g m are too coarse in double precision; choose a "
+                       "longer or stiffer right bar, nearer to the origin, or slower changes",
+                       second->upper - second->lower, second->upper, second->c, frequency, farthest);
         return false;
     }
-    memcpy(copy, oracle, size);
-    *out = copy;
     return true;
 }
 

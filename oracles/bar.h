@@ -17,10 +17,12 @@ struct bar bar_make(double lower, double length, double E, double rho);
 /* All fields at a point from displacement, velocity and stress. */
 void bar_state(const struct bar *bar, double u, double v, double stress, struct oracle_state *state);
 
-/* Whether all of these are neither zero, nor so large or small that products of them lose digits or overflow. */
-bool bar_representable(const double *size, size_t count);
-/* A copy of `size` bytes, or false with why filled in. */
-bool bar_create(const void *oracle, size_t size, struct oracle **out, char why[ORACLE_WHY]);
+/* Of two bars: whether their times of travel are near enough to each other that waves can be followed in both. False
+ * with `why` filled in. */
+bool bar_pair_fits(const struct bar *first, const struct bar *second, char why[ORACLE_WHY]);
+/* Of the second: whether it does not lie so far from the origin that, for the length of its waves of `frequency`
+ * [rad/s], places in it are too coarse in double precision. */
+bool bar_is_resolved(const struct bar *second, double frequency, char why[ORACLE_WHY]);
 
 /* Adds a front, in order, to those there are; one at the same place (within `near` [m]) with the same speed is the same
  * front: jumps add up. Returns how many there are now; ORACLE_TOO_MANY_FRONTS stays what it is. */

@@ -14,17 +14,17 @@
  * obey the same with the prescribed displacement for the velocity, and a constant once the end is free; they give u. */
 #include "oracles/bimaterial_wave.h"
 #include "oracles/bar.h"
+#include "oracles/kind.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Round trips in either bar that the oracle follows; later it says NaN. */
 enum { ROUND_TRIPS = 4096 };
 /* How far times of travel, the driven time and the phase may lie apart, so that a self-check ends. */
-static const double MOST_TRAVEL = 100, MOST_PATHS = 400, MOST_PHASE = 2000;
+static const double MOST_PATHS = 400, MOST_PHASE = 2000;
 /* Fronts that are this part of the first one are not listed; jumps that are, cannot be told from kinks. */
 static const double NEGLIGIBLE = 1e-15, NO_JUMP = 1e-12;
 
@@ -133,6 +133,13 @@ static void energy(const struct oracle *o, double t, double *kinetic, double *st
     bar_energy(&oracle_bimaterial_wave, o, &o->right, o->right.c / (2 * o->given.omega), t, kinetic, strain);
 }
 
+/* Of the prescribed motion [m/s]. */
+static double peak_velocity(const struct bimaterial_wave_given *g)
+{
+    double phase = g->omega * g->t1;
+    return fabs(g->A1 * g->omega) * (phase < asin(1.0) ? sin(phase) : 1);
+}
+
 /* A wave that left the start of its path, at X along its direction, `age` ago, and brought a step of w with it. */
 static size_t travelling(const struct oracle *o, const struct bar *bar, bool to_right, double age, double step,
                          double t, struct oracle_front front[ORACLE_FRONTS], size_t count)
@@ -151,8 +158,8 @@ static size_t travelling(const struct oracle *o, const struct bar *bar, bool to_
 static size_t follow(const struct oracle *o, double from, double step, double bend, double t,
                      struct oracle_front front[ORACLE_FRONTS], size_t count)
 {
-    double row[ROUND_TRIPS + 2], T1 = o->left.T, T2 = o->right.T, R = o->R;
-    double v = fabs(o->given.A1 * o->given.omega), least = fmax(fabs(step) / v, fabs(bend) / (v * o->given.omega));
+    double row[ROUND_TRIPS + 2], T1 = o->left.T, T2 = o->right.T, R = o->R, v = peak_velocity(&o->given);
+    double least = fmax(fabs(step), fabs(bend) * fmin(1 / o->given.omega, o->given.t1)) / v;
     if (!(from <= t)) {
         return count;
     }
@@ -191,7 +198,7 @@ static size_t fronts(const struct oracle *o, double t, struct oracle_front front
         count = follow(o, g->t1, o->jump, o->bend, t, front, count);
     }
     for (size_t i = 0; count != ORACLE_TOO_MANY_FRONTS && i < count; i++) {
-        bool jumps = fabs(front[i].jump) > NO_JUMP * fabs(g->A1 * g->omega);
+        bool jumps = fabs(front[i].jump) > NO_JUMP * peak_velocity(g);
         front[i].jump = jumps ? front[i].jump : 0;
         front[i].smoothness = jumps ? ORACLE_JUMPS : ORACLE_KINKS;
     }
@@ -200,12 +207,6 @@ static size_t fronts(const struct oracle *o, double t, struct oracle_front front
         count = bar_add_front(front, count, interface, 0);
     }
     return count;
-}
-
-static double peak_velocity(const struct bimaterial_wave_given *g)
-{
-    double phase = g->omega * g->t1;
-    return fabs(g->A1 * g->omega) * (phase < asin(1.0) ? sin(phase) : 1);
 }
 
 static size_t figures(const struct oracle *o, struct oracle_figure figure[ORACLE_FIGURES])
@@ -219,11 +220,8 @@ static size_t figures(const struct oracle *o, struct oracle_figure figure[ORACLE
         {"interface reached", "s", "by the front of the wave", o->left.T},
         {"first echo", "s", "at the left end", 2 * o->left.T},
     };
-    size_t count = 0;
-    for (; count < sizeof all / sizeof *all; count++) {
-        figure[count] = all[count];
-    }
-    return count;
+    memcpy(figure, all, sizeof all);
+    return sizeof all / sizeof *all;
 }
 
 /* What the end of the prescribed motion leaves behind. Values just before t1 are extrapolated from a little earlier, so
@@ -242,36 +240,28 @@ static void release(struct oracle *o)
     o->bend = 2 * (slope - g->A1 * g->omega * g->omega * cos(g->omega * g->t1));
 }
 
-static bool fits(const struct oracle *o, char why[ORACLE_WHY])
+static bool fits(const struct oracle *o, const double *value, char why[ORACLE_WHY])
 {
     const struct bimaterial_wave_given *g = &o->given;
     double v = peak_velocity(g), T1 = o->left.T, T2 = o->right.T, Z = fmax(o->left.Z, o->right.Z);
-    double always[] = {o->left.c, o->left.Z, T1, o->right.c, o->right.Z, T2, g->omega, g->t1, g->omega * g->omega};
-    double moving[] = {g->A1,
-                       v,
-                       v * v,
-                       Z * v,
-                       g->E1 / Z * v,
-                       g->E2 / Z * v,
-                       Z * v * v,
-                       Z * v * v * (T1 + T2),
-                       v * g->omega * g->omega,
-                       Z * v * g->omega,
-                       fmin(o->left.Z, o->right.Z) * v * v};
-    if (!bar_representable(always, sizeof always / sizeof *always) ||
-        (g->A1 != 0 && !bar_representable(moving, sizeof moving / sizeof *moving))) {
-        (void)snprintf(
-            why, ORACLE_WHY,
-            "E1 = %g, rho1 = %g, L1 = %g, E2 = %g, rho2 = %g, L2 = %g, A1 = %g, omega = %g, t1 = %g (SI "
-            "units) give fields or energies outside the range of double precision; choose values nearer to 1",
-            g->E1, g->rho1, g->L1, g->E2, g->rho2, g->L2, g->A1, g->omega, g->t1);
-        return false;
+    const double always[] = {o->left.c, o->left.Z, T1,    o->right.c,         o->right.Z,
+                             T2,        g->omega,  g->t1, g->omega * g->omega};
+    const double moving[] = {g->A1,
+                             v,
+                             v * v,
+                             Z * v,
+                             g->E1 / Z * v,
+                             g->E2 / Z * v,
+                             Z * v * v,
+                             Z * v * v * (T1 + T2),
+                             v * g->omega * g->omega,
+                             Z * v * g->omega,
+                             fmin(o->left.Z, o->right.Z) * v * v};
+    if (!oracle_representable(always, sizeof always / sizeof *always, false) ||
+        !oracle_representable(moving, sizeof moving / sizeof *moving, g->A1 == 0)) {
+        return oracle_out_of_range(parameters, value, why);
     }
-    if (fmax(T1, T2) > MOST_TRAVEL * fmin(T1, T2)) {
-        (void)snprintf(why, ORACLE_WHY,
-                       "L1 = %g m and L2 = %g m are crossed by waves in %g s and %g s, but neither may take more than "
-                       "%g times as long as the other; L2 = %g would do",
-                       g->L1, g->L2, T1, T2, MOST_TRAVEL, T1 * o->right.c);
+    if (!bar_pair_fits(&o->left, &o->right, why)) {
         return false;
     }
     double longest = 2 * sqrt(MOST_PATHS * T1 * T2);
@@ -282,7 +272,7 @@ static bool fits(const struct oracle *o, char why[ORACLE_WHY])
                        g->t1, g->omega, T1 + T2, (T1 + T2) / MOST_PHASE, longest, MOST_PHASE / (g->t1 + T1 + T2));
         return false;
     }
-    return true;
+    return bar_is_resolved(&o->right, fmax(g->omega, 1 / fmin(g->t1, fmin(T1, T2))), why);
 }
 
 static bool create(const double *value, struct oracle **oracle, char why[ORACLE_WHY])
@@ -302,16 +292,11 @@ static bool create(const double *value, struct oracle **oracle, char why[ORACLE_
     o.R = (o.left.Z - o.right.Z) / (o.left.Z + o.right.Z);
     o.to_right = 2 * o.left.Z / (o.left.Z + o.right.Z);
     o.to_left = 2 * o.right.Z / (o.left.Z + o.right.Z);
-    if (!fits(&o, why)) {
+    if (!fits(&o, value, why)) {
         return false;
     }
     release(&o);
-    return bar_create(&o, sizeof o, oracle, why);
-}
-
-static void destroy(struct oracle *oracle)
-{
-    free(oracle);
+    return oracle_keep(&o, sizeof o, oracle, why);
 }
 
 const struct bimaterial_wave_given *bimaterial_wave_given(const struct oracle *oracle)
@@ -327,7 +312,7 @@ const struct oracle_kind oracle_bimaterial_wave = {
     .smoothness = ORACLE_JUMPS,
     .parameter = parameters,
     .create = create,
-    .destroy = destroy,
+    .destroy = oracle_release,
     .state = state,
     .energy = energy,
     .fronts = fronts,

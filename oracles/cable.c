@@ -8,11 +8,11 @@
  *
  * Exact to the round-off of ct at any time, at a cost that does not depend on it. */
 #include "oracles/bar.h"
+#include "oracles/kind.h"
 #include "oracles/self_check_parts.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 static const double PI = 3.14159265358979323846;
 
@@ -121,27 +121,14 @@ static bool create(const double *value, struct oracle **oracle, char why[ORACLE_
                        g->moving, g->L, g->L / 4);
         return false;
     }
-    double size[] = {o.bar.c,
-                     o.bar.Z,
-                     o.bar.T,
-                     g->U0,
-                     o.bar.Z * g->U0,
-                     o.bar.Z * g->U0 / g->E * g->moving,
-                     g->moving * g->rho * g->U0 * g->U0};
-    if (!bar_representable(size, 3) || (g->U0 != 0 && !bar_representable(size, sizeof size / sizeof *size))) {
-        (void)snprintf(
-            why, ORACLE_WHY,
-            "L = %g m, moving = %g m, U0 = %g m/s, material.E = %g Pa, material.rho = %g kg/m^3 give fields or "
-            "energies outside the range of double precision; choose values nearer to 1",
-            g->L, g->moving, g->U0, g->E, g->rho);
-        return false;
+    const double always[] = {o.bar.c, o.bar.Z, o.bar.T};
+    const double moving[] = {g->U0, o.bar.Z * g->U0, o.bar.Z * g->U0 / g->E * g->moving,
+                             g->moving * g->rho * g->U0 * g->U0};
+    if (!oracle_representable(always, sizeof always / sizeof *always, false) ||
+        !oracle_representable(moving, sizeof moving / sizeof *moving, g->U0 == 0)) {
+        return oracle_out_of_range(parameters, value, why);
     }
-    return bar_create(&o, sizeof o, oracle, why);
-}
-
-static void destroy(struct oracle *oracle)
-{
-    free(oracle);
+    return oracle_keep(&o, sizeof o, oracle, why);
 }
 
 static void initial(const struct oracle *oracle, const double X[3], double u[3], double v[3])
@@ -212,7 +199,7 @@ const struct oracle_kind oracle_cable = {
     .smoothness = ORACLE_JUMPS,
     .parameter = parameters,
     .create = create,
-    .destroy = destroy,
+    .destroy = oracle_release,
     .state = state,
     .energy = energy,
     .fronts = fronts,

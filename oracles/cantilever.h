@@ -2,20 +2,13 @@
 #ifndef ORACLES_CANTILEVER_H
 #define ORACLES_CANTILEVER_H
 
-#include "oracles/ritz.h"
-
-/* What the scene gives. */
-struct cantilever_given {
-    double length, height; /* [m] */
-    int mode;              /* 1, 2, ... */
-    double tip_velocity;   /* [m/s] */
-    double E, nu, rho;     /* [Pa], [-], [kg/m^3] */
-};
+#include "oracles/plate.h"
 
 struct oracle {
-    struct cantilever_given given;
+    struct plate given;
+    bool plane_stress; /* else plane strain */
     struct ritz_limit solution;
-    double lambda, mu;       /* [Pa] */
+    double lambda, mu;       /* Lame's parameters in the plane [Pa] */
     double frequency;        /* [rad/s] */
     struct ritz_mode second; /* the same by other elements, for the self-check */
     double second_frequency; /* [rad/s] */

@@ -31,6 +31,13 @@ static void hooke(const struct self_check *check, const double G[9], double P[9]
     }
 }
 
+/* Strain across the plate: none in plane strain; in plane stress what leaves P_zz = 0. */
+static double across(const struct self_check *check, const double G[9])
+{
+    double lambda = check->bulk - 2 * check->mu / 3;
+    return check->oracle->plane_stress ? -lambda / (lambda + 2 * check->mu) * (G[0] + G[4]) : 0;
+}
+
 enum law { VELOCITY, MOMENTUM, GRADIENT, STRESS, MOTION, MIRROR_U, MIRROR_V, MIRROR_P, LAWS };
 
 /* What u, v and P look like from the other side of y = 0: some components change sign. */
@@ -61,6 +68,7 @@ static void differentiate(struct self_check *check, size_t i, struct self_check_
     for (int k = 0; k < 9; k++) {
         own[k] = state.F[k] - (k % 4 == 0 ? 1 : 0);
     }
+    G[8] = across(check, G);
     for (int k = 0; k < 3; k++) {
         momentum[k] = check->rho * state.v[k];
     }
@@ -105,7 +113,7 @@ static void differentials(struct self_check *check)
 /* At t = 0: nothing is bent, and the middle of the free end has its velocity. */
 static void starts(struct self_check *check)
 {
-    const struct cantilever_given *g = &check->oracle->given;
+    const struct plate *g = &check->oracle->given;
     double moved = 0, tip[3] = {g->length, 0, 0};
     struct oracle_state state;
     for (size_t i = 0; i < SAMPLES; i++) {
@@ -122,7 +130,7 @@ static void starts(struct self_check *check)
 /* Point i of a face of the body; of the faces along X where it is differentiated. */
 static void face_point(const struct self_check *check, size_t i, int axis, double at, double X[3], double *t)
 {
-    const struct cantilever_given *g = &check->oracle->given;
+    const struct plate *g = &check->oracle->given;
     X[0] = check->lower[0] + self_check_sequence(i, 0) * (check->upper[0] - check->lower[0]);
     X[1] = (self_check_sequence(i, 1) - 0.5) * (at > 0 ? REACH : 1) * g->height;
     X[2] = 0;
@@ -132,7 +140,7 @@ static void face_point(const struct self_check *check, size_t i, int axis, doubl
 
 static void faces(struct self_check *check)
 {
-    const struct cantilever_given *g = &check->oracle->given;
+    const struct plate *g = &check->oracle->given;
     static const char *const law[] = {"displacement on X0", "traction on X1", "traction on Y0", "traction on Y1"};
     const double at[] = {0, g->length, -g->height / 2, g->height / 2};
     for (int face = 0; face < 4; face++) {
@@ -155,7 +163,7 @@ static void faces(struct self_check *check)
 static void second(const struct self_check *check, const double X[3], double t, struct oracle_state *state)
 {
     const struct oracle *o = check->oracle;
-    const struct cantilever_given *g = &o->given;
+    const struct plate *g = &o->given;
     double half = g->height / 2, u[2], gradient[4], G[9] = {0}, phase = o->second_frequency * t;
     ritz_evaluate(&o->second, X[0] / half, X[1] / half, u, gradient);
     *state = (struct oracle_state){.F = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
@@ -168,6 +176,8 @@ static void second(const struct self_check *check, const double X[3], double t, 
             state->F[3 * i + j] += G[3 * i + j];
         }
     }
+    G[8] = across(check, G);
+    state->F[8] += G[8];
     hooke(check, G, state->P);
 }
 
@@ -261,7 +271,7 @@ static void energies(struct self_check *check)
 size_t cantilever_check(const struct oracle_kind *kind, const struct oracle *oracle, struct oracle_check *line,
                         size_t size)
 {
-    const struct cantilever_given *g = &oracle->given;
+    const struct plate *g = &oracle->given;
     double half = g->height / 2;
     /* Two radians per half height: end effects decay with 3.7 of them, bending waves are longer. */
     struct self_check check = {.kind = kind,

@@ -9,6 +9,7 @@
     ENTRY(oracle_bimaterial_wave)                                                                                      \
     ENTRY(oracle_cable)                                                                                                \
     ENTRY(oracle_cantilever)                                                                                           \
+    ENTRY(oracle_cantilever_plane_stress)                                                                              \
     ENTRY(oracle_rod_impact)                                                                                           \
     ENTRY(oracle_swinging_cube)
 

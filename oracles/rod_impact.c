@@ -15,14 +15,16 @@
  */
 #include "oracles/rod_impact.h"
 #include "oracles/bar.h"
+#include "oracles/kind.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-static const double MOST_TRAVEL = 100; /* times of travel must be as near as this to each other */
-static const double SAME = 1e-13;      /* waves that differ by less than this do not differ */
+static const double NO_DIGITS = 3e-6; /* relative round-off of the waves from which on there is no telling */
+static const double SAME = 1e-13;     /* waves that differ by less than this do not differ */
 
 /* From a time on: what leaves either face, its integral up to then, and whether the rods press. */
 struct piece {
@@ -35,6 +37,7 @@ struct oracle {
     struct bar rod[2];
     double closing, contact; /* v1 - v2 [m/s] and time of the first contact [s] */
     double end;              /* from here on what leaves the faces repeats itself */
+    double tie;              /* what lies within this of the end was counted to it */
     double released;         /* when the rods press for the last time */
     size_t contacts, count;
     struct piece piece[ROD_IMPACT_CHANGES];
@@ -55,10 +58,10 @@ static const struct oracle_parameter parameters[] = {
     {0},
 };
 
-/* Events as near as this are one. */
+/* Events as near as this are one: what is asked of comes with the round-off of times and places counted from zero. */
 static double tie_at(const struct oracle *o, double t)
 {
-    return 64 * DBL_EPSILON * (t + 2 * o->rod[0].T + 2 * o->rod[1].T);
+    return 64 * DBL_EPSILON * (o->contact + t + 2 * o->rod[0].T + o->rod[1].T + o->rod[1].upper / o->rod[1].c);
 }
 
 /* Last piece that has begun at t >= 0. */
@@ -135,6 +138,17 @@ static size_t add_change(const struct oracle *o, int which, double age, double s
     return bar_add_front(front, count, added, near);
 }
 
+/* Changes that meet and run on together may leave nothing of each other. */
+static size_t without_cancelled(struct oracle_front front[ORACLE_FRONTS], size_t count, double least)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        front[kept] = front[i];
+        kept += fabs(front[i].jump) > least;
+    }
+    return kept;
+}
+
 static size_t fronts(const struct oracle *o, double t, struct oracle_front front[ORACLE_FRONTS])
 {
     size_t count = 0;
@@ -143,13 +157,13 @@ static size_t fronts(const struct oracle *o, double t, struct oracle_front front
         for (int rod = 0; rod < 2; rod++) {
             double period = 2 * o->rod[rod].T, left = o->piece[k].t;
             double before = k == 0 ? 1 - rod : o->piece[k - 1].out[rod];
-            if (t > o->end && left > o->end - period + tie_at(o, o->end)) {
+            if (t > o->end && left > o->end - period + o->tie) {
                 left += period * fmax(0, floor((t - left) / period)); /* the last time it left again */
             }
             count = add_change(o, rod, t - left, o->piece[k].out[rod] - before, fabs(t), front, count);
         }
     }
-    return count;
+    return count == ORACLE_TOO_MANY_FRONTS ? count : without_cancelled(front, count, SAME * o->closing);
 }
 
 static void energy(const struct oracle *o, double t, double *kinetic, double *strain)
@@ -181,11 +195,8 @@ static size_t figures(const struct oracle *o, struct oracle_figure figure[ORACLE
         {"exit velocity 2", "m/s", "mean over the right rod, after the last contact", v2 + exit[1] * o->closing},
         {"restitution", "-", "relative exit velocity over v1 - v2; waves keep the rest", exit[1] - exit[0]},
     };
-    size_t count = 0;
-    for (; count < sizeof all / sizeof *all; count++) {
-        figure[count] = all[count];
-    }
-    return count;
+    memcpy(figure, all, sizeof all);
+    return sizeof all / sizeof *all;
 }
 
 /* How far what arrives at a face from t on, its mean taken away, moves that face: to either side, over a period. */
@@ -283,6 +294,7 @@ static bool follow(struct oracle *o, char why[ORACLE_WHY])
         if (events > 0 && parted(o, &now, tie)) {
             return true;
         }
+        o->tie = tie;
         advance(o, &now, tie);
     }
     const struct rod_impact_given *g = &o->given;
@@ -293,7 +305,7 @@ static bool follow(struct oracle *o, char why[ORACLE_WHY])
     return false;
 }
 
-static bool fits(const struct oracle *o, char why[ORACLE_WHY])
+static bool fits(const struct oracle *o, const double *value, char why[ORACLE_WHY])
 {
     const struct rod_impact_given *g = &o->given;
     double v = fmax(fabs(g->v1), fabs(g->v2)), T1 = o->rod[0].T, T2 = o->rod[1].T, Z1 = o->rod[0].Z, Z2 = o->rod[1].Z;
@@ -319,30 +331,29 @@ static bool fits(const struct oracle *o, char why[ORACLE_WHY])
                      v * (o->contact + T1 + T2),
                      o->closing / o->rod[0].c,
                      o->closing / o->rod[1].c};
-    if (!bar_representable(size, sizeof size / sizeof *size)) {
+    if (!oracle_representable(size, sizeof size / sizeof *size, false)) {
+        return oracle_out_of_range(parameters, value, why);
+    }
+    /* Round-off of a phase, and of a velocity beside which that of the waves is small. */
+    double shorter = fmin(T1, T2), far = o->rod[1].upper / o->rod[1].c;
+    double phase = (o->contact + 6 * fmax(T1, T2) + far) / shorter, drift = v / (o->closing * fmin(Z1, Z2) / (Z1 + Z2));
+    if (DBL_EPSILON * (1 + phase) * (1 + drift) > NO_DIGITS) {
         (void)snprintf(
             why, ORACLE_WHY,
-            "E1 = %g, rho1 = %g, L1 = %g, v1 = %g, E2 = %g, rho2 = %g, L2 = %g, v2 = %g, gap = %g (SI units) "
-            "give fields or energies outside the range of double precision; choose values nearer to 1",
-            g->E1, g->rho1, g->L1, g->v1, g->E2, g->rho2, g->L2, g->v2, g->gap);
+            "v1 = %.15g m/s, v2 = %.15g m/s, gap = %g m: the rods meet after %g s, %g times what a wave takes "
+            "through one of them, and with %g of their velocity; too few digits are left of the impact; "
+            "choose a smaller gap, rods that are less different, or a frame in which they move less fast",
+            g->v1, g->v2, g->gap, o->contact, o->contact / shorter, o->closing / v);
         return false;
     }
-    if (fmax(T1, T2) > MOST_TRAVEL * fmin(T1, T2)) {
-        (void)snprintf(why, ORACLE_WHY,
-                       "L1 = %g m and L2 = %g m are crossed by waves in %g s and %g s, but neither may take more than "
-                       "%g times as long as the other; L2 = %g would do",
-                       g->L1, g->L2, T1, T2, MOST_TRAVEL, T1 * o->rod[1].c);
-        return false;
-    }
-    return true;
+    return bar_pair_fits(&o->rod[0], &o->rod[1], why) && bar_is_resolved(&o->rod[1], 1 / fmin(T1, T2), why);
 }
 
 static bool create(const double *value, struct oracle **oracle, char why[ORACLE_WHY])
 {
     struct oracle *o = calloc(1, sizeof *o);
     if (o == NULL) {
-        (void)snprintf(why, ORACLE_WHY, "no memory for %zu bytes", sizeof *o);
-        return false;
+        return oracle_no_memory(sizeof *o, why);
     }
     o->given = (struct rod_impact_given){.E1 = value[0],
                                          .rho1 = value[1],
@@ -357,17 +368,12 @@ static bool create(const double *value, struct oracle **oracle, char why[ORACLE_
     o->rod[1] = bar_make(value[2] + value[8], value[6], value[4], value[5]);
     o->closing = value[3] - value[7];
     o->contact = value[8] / o->closing;
-    if (!fits(o, why) || !follow(o, why)) {
-        free(o);
+    if (!fits(o, value, why) || !follow(o, why)) {
+        oracle_release(o);
         return false;
     }
     *oracle = o;
     return true;
-}
-
-static void destroy(struct oracle *oracle)
-{
-    free(oracle);
 }
 
 const struct rod_impact_given *rod_impact_given(const struct oracle *oracle)
@@ -392,7 +398,7 @@ const struct oracle_kind oracle_rod_impact = {
     .smoothness = ORACLE_JUMPS,
     .parameter = parameters,
     .create = create,
-    .destroy = destroy,
+    .destroy = oracle_release,
     .state = state,
     .energy = energy,
     .fronts = fronts,

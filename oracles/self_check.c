@@ -45,6 +45,22 @@ static void measure_derivative(struct self_check_distance *d, double step, const
     d->size = self_check_worse(d->size, here.size);
 }
 
+/* v and P / (rho c) are half the sum and half the difference of two waves, so either has the round-off of the larger:
+ * raises the scales of all that follow from them. A drift of the whole body is no wave. */
+static void raise_to_wave(struct self_check *check, const struct self_check_spot *spot,
+                          const struct oracle_state *state, struct self_check_distance law[5])
+{
+    double c = self_check_speed(&spot->body), Z = spot->body.rho * c, stress = fabs(state->P[0]);
+    if (check->drift == 0) {
+        stress = self_check_worse(stress, Z * fabs(state->v[0]));
+    }
+    law[0].size = self_check_worse(law[0].size, stress / Z);
+    law[4].size = self_check_worse(law[4].size, check->frequency / c * stress);
+    check->of.v = self_check_worse(check->of.v, stress / Z);
+    check->of.gradient = self_check_worse(check->of.gradient, stress / (Z * c));
+    check->of.stress = self_check_worse(check->of.stress, stress);
+}
+
 /* The five laws at one point, added to their distances. */
 static void differentiate(struct self_check *check, size_t i, struct self_check_distance law[5])
 {
@@ -75,6 +91,9 @@ static void differentiate(struct self_check *check, size_t i, struct self_check_
     self_check_largest(&check->of.v, along[3].u, 3);
     check->of.gradient = self_check_worse(gradient, check->of.gradient);
     check->of.stress = self_check_worse(self_check_modulus(&spot.body) * gradient, check->of.stress);
+    if (check->kind->fronts != NULL) {
+        raise_to_wave(check, &spot, &state, law);
+    }
 }
 
 void self_check_differentials(struct self_check *check)

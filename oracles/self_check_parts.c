@@ -40,9 +40,11 @@ void self_check_line(struct self_check *check, const char *law, double residual,
     check->count++;
 }
 
+/* A body that begins far from the origin has its places with the round-off of that distance. */
 double self_check_round_off(const struct self_check *check)
 {
-    return DBL_EPSILON * (1 + check->frequency * check->t_end) * (1 + check->drift);
+    double far = check->behind == NULL ? 0 : check->behind->upper[0] / self_check_speed(check->behind);
+    return DBL_EPSILON * (1 + check->frequency * (check->t_end + far)) * (1 + check->drift);
 }
 
 double self_check_gradient_scale(const struct self_check *check, double bound)

@@ -11,12 +11,10 @@
  *
  * On Xi = 0 si = 0: no normal displacement, no shear traction (it goes with si sj). On Xi = 1 ci = 0: no tangential
  * displacement, no normal traction (it goes with c1 c2 c3). */
+#include "oracles/kind.h"
 #include "oracles/self_check.h"
 
-#include <float.h>
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
@@ -103,13 +101,7 @@ static void energy(const struct oracle *o, double t, double *kinetic, double *st
     *strain = o->k * o->k * ((o->lambda + o->mu) * S * S + 3 * o->mu * Q) / 16;
 }
 
-static bool representable(double x)
-{
-    return fabs(x) >= DBL_MIN / DBL_EPSILON && fabs(x) <= DBL_MAX * DBL_EPSILON;
-}
-
-/* A state or an energy that overflows, or loses digits to underflow, would be a wrong answer without a warning. */
-static bool fits(const struct oracle *o, char why[ORACLE_WHY])
+static bool fits(const struct oracle *o)
 {
     double a = 0, kinetic, strain;
     for (int i = 0; i < 3; i++) {
@@ -117,29 +109,16 @@ static bool fits(const struct oracle *o, char why[ORACLE_WHY])
     }
     energy(o, 0, &kinetic, &strain);
     bool at_rest = o->given.U0 == 0 || (o->given.A[0] == 0 && o->given.A[1] == 0 && o->given.A[2] == 0);
-    double size[] = {o->mu,
-                     fabs(o->lambda) + 2 * o->mu,
-                     o->p_frequency,
-                     o->s_frequency,
-                     a,
-                     strain,
-                     a * o->p_frequency,
-                     o->given.rho * a * o->p_frequency,
-                     o->given.rho * a * o->s_frequency,
-                     a * o->s_frequency,
-                     a * o->p_frequency * o->p_frequency * o->given.rho};
-    for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
-        if (!representable(size[i]) && !(at_rest && i >= 4 && size[i] == 0)) {
-            (void)snprintf(why, ORACLE_WHY,
-                           "U0 = %g m, A = %g, B = %g, C = %g, material.E = %g Pa, material.nu = "
-                           "%.15g, material.rho = %g kg/m^3 give moduli, frequencies, fields or energies outside the "
-                           "range of double precision; choose values nearer to 1",
-                           o->given.U0, o->given.A[0], o->given.A[1], o->given.A[2], o->given.E, o->given.nu,
-                           o->given.rho);
-            return false;
-        }
-    }
-    return true;
+    const double always[] = {o->mu, fabs(o->lambda) + 2 * o->mu, o->p_frequency, o->s_frequency};
+    const double moving[] = {a,
+                             strain,
+                             a * o->p_frequency,
+                             o->given.rho * a * o->p_frequency,
+                             o->given.rho * a * o->s_frequency,
+                             a * o->s_frequency,
+                             a * o->p_frequency * o->p_frequency * o->given.rho};
+    return oracle_representable(always, sizeof always / sizeof *always, false) &&
+           oracle_representable(moving, sizeof moving / sizeof *moving, at_rest);
 }
 
 static bool create(const double *value, struct oracle **oracle, char why[ORACLE_WHY])
@@ -157,21 +136,7 @@ static bool create(const double *value, struct oracle **oracle, char why[ORACLE_
     for (int i = 0; i < 3; i++) {
         o.s_part[i] = g->U0 * (g->A[i] - m);
     }
-    if (!fits(&o, why)) {
-        return false;
-    }
-    *oracle = malloc(sizeof **oracle);
-    if (*oracle == NULL) {
-        (void)snprintf(why, ORACLE_WHY, "no memory for %zu bytes", sizeof **oracle);
-        return false;
-    }
-    **oracle = o;
-    return true;
-}
-
-static void destroy(struct oracle *oracle)
-{
-    free(oracle);
+    return fits(&o) ? oracle_keep(&o, sizeof o, oracle, why) : oracle_out_of_range(parameters, value, why);
 }
 
 /* By way of the bulk modulus, so that a slip in the oracle's own constants is seen; 1 - 2 nu and 1 + nu are exact near
@@ -294,7 +259,7 @@ const struct oracle_kind oracle_swinging_cube = {
     .smoothness = ORACLE_SMOOTH,
     .parameter = parameters,
     .create = create,
-    .destroy = destroy,
+    .destroy = oracle_release,
     .state = state,
     .energy = energy,
     .check = check,

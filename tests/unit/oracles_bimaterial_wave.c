@@ -2,7 +2,7 @@
  * characteristics; at the ends of its parameters. */
 #include "tests/unit/bar_oracles.h"
 
-static const double E1 = 79.1e9, RHO1 = 2785, C1 = 5329.3671671, PEAK = 1.5707963267948966;
+static const double E1 = 79.1e9, RHO1 = 2785, C1 = 5329.3671671, PEAK = 1.5707963267948966, PI = 3.14159265358979323846;
 
 static const struct oracle_kind *the_kind(void)
 {
@@ -168,6 +168,52 @@ static void holds_at_the_ends_of_its_parameters(void)
     holds_with_each(the_kind(), set, sizeof set / sizeof *set);
 }
 
+/* Each broke the check, or the list of fronts, once. Of the right bar, over that of the left one: impedance, wave
+ * speed, time of travel; then the phase at t1, and t1 over the time of travel of the left bar. */
+static void holds_with_hostile_parameters(void)
+{
+    static const struct {
+        double Z, c, T, phase, t1;
+    } with[] = {
+        {1e6, 1e-3, 0.084, 2.7, 0.0031}, /* a slow sliver far from the origin, where places have round-off */
+        {1e5, 1e-4, 0.084, 2.7, 0.31},   /* the same, heavier on all lines */
+        {10, 1, 6.25, 2 * PI, 0.04913},  /* a short pulse that leaves no displacement: samples miss it */
+        {2, 0.1, 36.7, 1e-3, 0.427},     /* a jump, small beside A omega, that was listed as a kink */
+        {1e6, 1, 1.5, 2 * PI, 40.8},     /* slowly moved against a wall: nothing is left swinging */
+        {1e-3, 0.01, 2, 37.5, 4},        /* quickly moved before a soft end: little is */
+        {2818, 6, 1, 2.5e-3, 35.6},      /* u grows with the fourth power of the time */
+        {38627, 0.2, 75.8, 650, 345},    /* many echoes, of which most cancel */
+        {336, 0.1, 40.1, 2 * PI, 251},   /* stresses so large beside the velocities that v is a small difference */
+    };
+    const double c = sqrt(E1 / RHO1), L = 1.3;
+    for (size_t i = 0; i < sizeof with / sizeof *with; i++) {
+        double t1 = with[i].t1 * L / c, stiffness = with[i].Z * with[i].c, density = with[i].Z / with[i].c;
+        const struct setting set[][SETTINGS] = {{{"L1", L},
+                                                 {"E2", E1 * stiffness},
+                                                 {"rho2", RHO1 * density},
+                                                 {"L2", L * with[i].c * with[i].T},
+                                                 {"omega", with[i].phase / t1},
+                                                 {"t1", t1}}};
+        holds_with_each(the_kind(), set, 1);
+    }
+}
+
+/* Where all times of travel are round parts of each other, jumps meet at the weld just when it is looked at. */
+static void holds_in_step(void)
+{
+    static const double travel[] = {6, 2.5, 3, 2, 1.5}, drive[] = {2, 4, 6, 10};
+    for (int i = 0; i < 20; i++) {
+        const struct setting set[][SETTINGS] = {{{"E1", 1},
+                                                 {"rho1", 1},
+                                                 {"E2", 0.05},
+                                                 {"rho2", 5},
+                                                 {"L2", 0.1 * travel[i % 5]},
+                                                 {"omega", 6.9 / drive[i / 5]},
+                                                 {"t1", drive[i / 5]}}};
+        holds_with_each(the_kind(), set, 1);
+    }
+}
+
 static void refuses_what_it_cannot_check(void)
 {
     const struct oracle_kind *kind = the_kind();
@@ -175,6 +221,8 @@ static void refuses_what_it_cannot_check(void)
     refuses(kind, (const struct setting[SETTINGS]){{"t1", 1}}, "t1 must be at least");
     refuses(kind, (const struct setting[SETTINGS]){{"t1", 1e-9}}, "t1 must be at least");
     refuses(kind, (const struct setting[SETTINGS]){{"omega", 1e8}}, "omega with this t1 at most");
+    refuses(kind, (const struct setting[SETTINGS]){{"E2", 1e-6}, {"rho2", 1e9}, {"L2", 5e-12}},
+            "are too coarse in double precision");
     refuses(kind, (const struct setting[SETTINGS]){{"A1", 1e200}}, "range of double precision");
     refuses(kind, (const struct setting[SETTINGS]){{"E1", 1e-320}}, "range of double precision");
 }
@@ -205,6 +253,8 @@ int main(void)
         {"is the sum over all paths", is_the_sum_over_all_paths},
         {"agrees with a grid of characteristics", agrees_with_a_grid_of_characteristics},
         {"holds at the ends of its parameters", holds_at_the_ends_of_its_parameters},
+        {"holds with hostile parameters", holds_with_hostile_parameters},
+        {"holds in step", holds_in_step},
         {"refuses what it cannot check", refuses_what_it_cannot_check},
         {"says nothing of times too late", says_nothing_of_times_too_late},
     };

@@ -143,9 +143,31 @@ static void holds_at_the_ends_of_its_parameters(void)
     holds_with_each(the_kind(), set, sizeof set / sizeof *set);
 }
 
+/* Each broke the check once. */
+static void holds_with_hostile_parameters(void)
+{
+    const struct setting set[][SETTINGS] = {
+        /* A change that came within round-off of the end of the list, and was neither in it nor repeated. */
+        {{"E1", 13020066.38841412},
+         {"rho1", 2.594582187918093},
+         {"L1", 0.001130212368091176},
+         {"E2", 340.82793716768617},
+         {"rho2", 4.055487108827843},
+         {"L2", 2.3126145679016023e-06},
+         {"gap", 4.7239215804397573e-08}},
+        /* Changes that run on together and leave nothing of each other: no front. */
+        {{"E1", 1}, {"rho1", 3}, {"L1", 0.7}, {"E2", 1}, {"rho2", 300}, {"L2", 0.07}, {"gap", 5e4}},
+        /* Changes nearer to each other than a time so long after zero can tell. */
+        {{"E1", 1}, {"rho1", 3}, {"L1", 0.7}, {"E2", 0.01}, {"rho2", 0.03}, {"L2", 1.4}, {"gap", 5e4}},
+    };
+    holds_with_each(the_kind(), set, sizeof set / sizeof *set);
+}
+
 static void refuses_rods_that_do_not_meet(void)
 {
     const struct oracle_kind *kind = the_kind();
+    refuses(kind, (const struct setting[SETTINGS]){{"v1", 1000.0000001}, {"v2", 1000}}, "too few digits are left");
+    refuses(kind, (const struct setting[SETTINGS]){{"gap", 1e8}}, "choose a smaller gap");
     refuses(kind, (const struct setting[SETTINGS]){{"v1", -1}}, "or the rods never meet");
     refuses(kind, (const struct setting[SETTINGS]){{"v2", 3}}, "v1 = 2 m/s, but it must be greater than v2 = 3 m/s");
     refuses(kind, (const struct setting[SETTINGS]){{"gap", -1e-9}}, "gap = -1e-09 [m]");
@@ -164,6 +186,7 @@ int main(void)
         {"agrees with a grid of characteristics", agrees_with_a_grid_of_characteristics},
         {"says nothing of the gap", says_nothing_of_the_gap},
         {"holds at the ends of its parameters", holds_at_the_ends_of_its_parameters},
+        {"holds with hostile parameters", holds_with_hostile_parameters},
         {"refuses rods that do not meet", refuses_rods_that_do_not_meet},
     };
     return unit_main("oracles: rod impact", tests, sizeof tests / sizeof *tests);
