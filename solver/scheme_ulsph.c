@@ -98,7 +98,8 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
     system->body = body;
     if (!solver_alloc((void **)&system->mass, count, sizeof(double), "masses", error) ||
         !solver_alloc((void **)&system->full_mass, count, sizeof(double), "masses", error) ||
-        !solver_skin_create(body->cloud, body->scene->support * body->cloud->spacing, SOLVER_PAIRS_WITHIN, &system->skin, error)) {
+        !solver_skin_create(body->cloud, body->scene->support * body->cloud->spacing, SOLVER_PAIRS_WITHIN,
+                            &system->skin, error)) {
         destroy(system);
         return false;
     }

@@ -28,6 +28,9 @@ cli_refuses(wrong-golden-verb "check or update" golden chek swinging-cube)
 cli_refuses(no-golden-record "golden update swinging-cube" golden check swinging-cube --dir test-out/no-golden
             --out test-out/no-golden)
 cli_refuses(missing-record "nothing-there.vtkhdf" render nothing-there.vtkhdf)
+cli_refuses(no-such-scalar "its fields are F, H, J, P, displacement, momentum, pressure, sigma" render
+            ${CMAKE_SOURCE_DIR}/golden/swinging-cube.vtkhdf -o test-out/none.png --set view.field=Q_xx)
+cli_refuses(gate-on-unknown-field "\"P\" needs the scene's key scheme" verify swinging-cube --set scheme=ulsph)
 cli_refuses(foreign-record "CMakeCache.txt" render CMakeCache.txt)
 cli_refuses(json-over-another-file "ends in .json" verify swinging-cube --levels 8 --out test-out/device
             --json /dev/null)
@@ -38,6 +41,8 @@ foreach(command list run verify render golden bench)
 endforeach()
 assay_test(cli-list LABELS unit COMMAND ${cli} 0 "Swinging cube" ${assay} list)
 assay_test(cli-list-schemes LABELS unit COMMAND ${cli} 0 "cofactor H" ${assay} list schemes)
+assay_test(cli-bench-without-stencil LABELS unit COMMAND ${cli} 0 "-        -             125"
+  ${assay} bench swinging-cube --set scheme=ulsph --set n=4)
 assay_test(cli-list-materials LABELS unit COMMAND ${cli} 0 "Hooke's law" ${assay} list materials)
 assay_test(cli-list-stencils LABELS unit COMMAND ${cli} 0 "summation-by-parts 4-2" ${assay} list stencils)
 assay_test(cli-list-integrators LABELS unit COMMAND ${cli} 0 "four-stage" ${assay} list integrators)

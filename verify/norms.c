@@ -108,17 +108,21 @@ static bool is_of_deformation(enum verify_field field)
     return field == VERIFY_P || field == VERIFY_P_ALL || field == VERIFY_F;
 }
 
-bool verify_error_applies(const struct solver_scene *scene, size_t error, const char **lacks)
+bool verify_error_known(const struct solver_scene *scene, size_t error)
 {
     const struct solver_scheme *scheme = solver_scheme_find(scene->scheme);
+    return scheme == NULL || scheme->deformation || !is_of_deformation(field_of(error));
+}
+
+bool verify_error_applies(const struct solver_scene *scene, size_t error, const char **lacks)
+{
     bool of_snapshots = error >= VERIFY_SNAPSHOT_ERRORS && error < VERIFY_PROBES_NRMSE;
     bool of_probes = !of_snapshots && error >= VERIFY_STATE_ERRORS;
-    bool deformation = scheme == NULL || scheme->deformation;
-    *lacks = of_snapshots && scene->snapshot_count == 0                         ? "snapshots"
-             : of_probes && scene->probe_count == 0                             ? "probes"
-             : error == VERIFY_PROBES_NRMSE && !(scene->probe_scale > 0)        ? "probe_scale"
-             : !of_probes && !deformation && is_of_deformation(field_of(error)) ? "scheme set to one that knows F and P"
-                                                                                : NULL;
+    *lacks = of_snapshots && scene->snapshot_count == 0                  ? "snapshots"
+             : of_probes && scene->probe_count == 0                      ? "probes"
+             : error == VERIFY_PROBES_NRMSE && !(scene->probe_scale > 0) ? "probe_scale"
+             : !verify_error_known(scene, error)                         ? "scheme set to one that knows F and P"
+                                                                         : NULL;
     return *lacks == NULL;
 }
 
@@ -261,10 +265,4 @@ void verify_norms_worst(size_t snapshots_before, const double of_snapshot[VERIFY
     for (size_t i = 0; i < VERIFY_STATE_ERRORS; i++) {
         worst[i] = snapshots_before == 0 ? of_snapshot[i] : larger(worst[i], of_snapshot[i]);
     }
-}
-
-bool verify_error_known(const struct solver_scene *scene, size_t error)
-{
-    const struct solver_scheme *scheme = solver_scheme_find(scene->scheme);
-    return scheme == NULL || scheme->deformation || !is_of_deformation(field_of(error));
 }

@@ -13,6 +13,9 @@ struct bytes {
 
 static void append(struct bytes *bytes, const void *from, size_t size)
 {
+    if (size == 0) {
+        return;
+    }
     unsigned char *value = realloc(bytes->value, bytes->size + size);
     CU_ASSERT_PTR_NOT_NULL_FATAL(value);
     memcpy(value + bytes->size, from, size);
@@ -28,13 +31,14 @@ static struct bytes bytes_of(struct sample *sample)
     size_t count = output.cloud->count;
     size_t dim = (size_t)output.cloud->dim;
     const double *vectors[] = {output.cloud->X, output.u, output.v, output.p};
-    const double *tensors[] = {output.F, output.H, output.P};
+    const double *tensors[] = {output.F, output.H, output.P,
+                               output.sigma}; /* the first three where the scheme has them */
     const double *scalars[] = {output.V, output.J, output.pressure, output.von_mises};
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         append(&bytes, vectors[i], count * dim * sizeof(double));
     }
     for (size_t i = 0; i < sizeof tensors / sizeof *tensors; i++) {
-        append(&bytes, tensors[i], count * dim * dim * sizeof(double));
+        append(&bytes, tensors[i], tensors[i] != NULL ? count * dim * dim * sizeof(double) : 0);
     }
     for (size_t i = 0; i < sizeof scalars / sizeof *scalars; i++) {
         append(&bytes, scalars[i], count * sizeof(double));
@@ -109,6 +113,8 @@ static void test_other_choices(void)
         "stencil=sph evolved=pFJ reconstruction=least-squares integrator=ssp-rk3",
         "stencil=sbp4 evolved=pFJ reconstruction=none material.model=linear-elastic",
         "stencil=sbp2 evolved=pFHJ volume_flux=stress material.model=linear-elastic integrator=rk4",
+        "scheme=ulsph material.model=linear-elastic integrator=euler",
+        "scheme=ulsph material.model=linear-elastic ulsph.dissipation=viscosity ulsph.tension=stress integrator=rk4",
     };
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         for (size_t dim = 1; dim <= 3; dim++) {

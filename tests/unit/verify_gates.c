@@ -127,6 +127,28 @@ static void no_rule(void)
     CU_ASSERT_FALSE(gates.pass); /* nothing was judged, so nothing passed */
 }
 
+/* A scheme without P: a rule for others may name it, one that holds may not. */
+static void fields_that_a_scheme_has_not(void)
+{
+    prepare();
+    strcpy(scene->scheme, "ulsph");
+    strcpy(scene->gate[1].bound[0].name, "rate P");
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT(gates.count == 2 && gates.pass);
+    strcpy(scene->gate[0].bound[1].name, "rate sigma");
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT(gates.count == 2 && gates.pass);
+    strcpy(scene->gate[0].bound[1].name, "rate P");
+    CU_ASSERT_FALSE(judge());
+    CU_ASSERT_EQUAL(why.code, SOLVER_BAD_INPUT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "gates[1]: \"rate P\" needs the scene's key scheme set to one that knows"));
+    prepare();
+    strcpy(scene->scheme, "ulsph");
+    strcpy(scene->stencil, "sph"); /* now the rule without conditions holds, and bounds P_abs */
+    CU_ASSERT_FALSE(judge());
+    CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "gates[3]: \"P_abs\" needs"));
+}
+
 static void wrong_rules(void)
 {
     prepare();
@@ -155,6 +177,7 @@ int main(void)
         {"a rule without conditions", without_conditions},
         {"all conditions count", all_conditions_count},
         {"no rule", no_rule},
+        {"fields that a scheme has not", fields_that_a_scheme_has_not},
         {"wrong rules", wrong_rules},
     };
     int code = unit_main("gates", tests, sizeof tests / sizeof *tests);

@@ -199,6 +199,14 @@ static void errors_that_apply(void)
         CU_ASSERT_STRING_EQUAL(lacks, needs[i].lacks);
         CU_ASSERT_TRUE(verify_error_applies(&less, verify_error_find("P_l1"), &lacks));
     }
+    (void)snprintf(scene.scheme, sizeof scene.scheme, "ulsph"); /* knows neither F nor P */
+    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
+        const char *name = verify_error_name(i) + (strncmp(verify_error_name(i), "snapshots_", 10) == 0 ? 10 : 0);
+        bool of_deformation = name[0] == 'P' || name[0] == 'F';
+        CU_ASSERT_EQUAL(verify_error_applies(&scene, i, &lacks), !of_deformation);
+        CU_ASSERT_EQUAL(verify_error_known(&scene, i), !of_deformation);
+        CU_ASSERT_EQUAL(of_deformation, lacks != NULL && strncmp(lacks, "scheme ", 7) == 0);
+    }
 }
 
 static void names(void)

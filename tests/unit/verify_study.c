@@ -100,6 +100,15 @@ static void published_rows(void)
     scene.gate_count = 1;
     scene.gate[0] = (struct solver_gate_rule){.bounds = 2, .bound = {{"u_max", 1}, {"rate F", 1}}};
     CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 3);
+    (void)snprintf(scene.scheme, sizeof scene.scheme, "ulsph"); /* has no F */
+    CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 2);
+    CU_ASSERT(shown[0] == verify_error_find("p") && shown[1] == verify_error_find("u_max"));
+    struct solver_scene bare = {.scheme = "ulsph"}; /* nothing is asked for: momentum and stress */
+    CU_ASSERT_EQUAL(verify_shown(&bare, shown, &error), 2);
+    CU_ASSERT(shown[0] == verify_error_find("p") && shown[1] == verify_error_find("sigma"));
+    bare.scheme[0] = '\0';
+    CU_ASSERT_EQUAL(verify_shown(&bare, shown, &error), 2);
+    CU_ASSERT(shown[0] == verify_error_find("p") && shown[1] == verify_error_find("P"));
     scene.published[0].value[0].name[0] = 'q';
     CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 0);
     CU_ASSERT_EQUAL(error.code, SOLVER_BAD_INPUT);
