@@ -208,6 +208,7 @@ static int read_scene(lua_State *L)
     scene_read_faces(L, scene);
     scene_read_probes(L, scene);
     scene_read_snapshots(L, scene);
+    scene_read_figures(L, scene);
     scene_read_oracle(L, scene);
     scene_read_published(L, scene);
     scene_read_gates(L, scene);

@@ -19,6 +19,8 @@ enum {
     SOLVER_LEVELS = 16,
     SOLVER_PROBES = 16,
     SOLVER_SNAPSHOTS = 16,
+    SOLVER_FIGURES = 16,
+    SOLVER_OPTIONS = 8,
     SOLVER_GATES = 32,
     SOLVER_NAMED = 16,
     SOLVER_ROWS = 16,
@@ -110,6 +112,22 @@ struct solver_gate_rule {
     struct solver_named bound[SOLVER_NAMED];
 };
 
+/* One option of a figure: text, or up to four numbers. */
+struct solver_option {
+    char name[SOLVER_NAME];
+    char text[SOLVER_NAME]; /* "" if numbers were given */
+    size_t count;
+    double number[4];
+};
+
+/* A number that a study measures in the run, and how. What measures there are, and their options, the study knows. */
+struct solver_figure {
+    char name[SOLVER_NAME];
+    char measure[SOLVER_NAME];
+    size_t option_count;
+    struct solver_option option[SOLVER_OPTIONS]; /* ordered by name */
+};
+
 struct solver_probe {
     char name[SOLVER_NAME];
     double X[3]; /* [m]; the nearest particle is recorded */
@@ -174,6 +192,9 @@ struct solver_scene {
     struct solver_probe probe[SOLVER_PROBES];
     size_t probe_count;
     double probe_scale; /* [m] what the error "probes_nrmse" is relative to; 0 if not given */
+
+    size_t figure_count;
+    struct solver_figure figure[SOLVER_FIGURES]; /* ordered by name */
 
     char oracle[SOLVER_NAME]; /* "" if the scene answers to none */
     size_t oracle_told_count; /* oracle.KEY = number: told to the oracle in place of the scene's own value */

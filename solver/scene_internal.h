@@ -137,5 +137,6 @@ void scene_read_published(lua_State *L, struct solver_scene *scene);
 void scene_read_gates(lua_State *L, struct solver_scene *scene);
 /* After t_end is known. */
 void scene_read_snapshots(lua_State *L, struct solver_scene *scene);
+void scene_read_figures(lua_State *L, struct solver_scene *scene);
 
 #endif

@@ -106,12 +106,14 @@ X("probes", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 { name = tex
   "places whose motion is recorded over time")                                                                         \
 X("probe_scale", NUMBER, AT(probe_scale), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",                      \
   "what the error probes_nrmse is relative to")                                                                        \
+X("figures", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ [NAME] = { measure = text, OPTION = ..., ... }, ... }",          \
+  "numbers that a study measures and compares with those of the oracle; see assay list measures")                      \
 X("oracle", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ name = text }; any number beside it is told to the oracle",       \
   "exact solution that the scene answers to")                                                                          \
 X("published", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ source = text, { n = ..., NAME = error, ... }, ... }",         \
   "the figures printed in the paper")                                                                                  \
 X("gates", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 32 { when = { KEY = value, ... }, NAME = bound, ... }",\
-  "largest errors and, as [\"rate NAME\"], smallest observed orders")                                                  \
+  "largest errors and, as [\"rate NAME\"], smallest observed orders; [\"figure NAME\"] for those of figures")                                                  \
 X("view.field", TEXT, AT(view.field), 0, 0, SOLVER_NAME, "", NEEDED, "name of a scalar of the record",                 \
   "what the picture shows")                                                                                            \
 X("view.range", NUMBERS, AT(view.range), 0, 0, 2, "", NEEDED, "list of 2 numbers, increasing", "colour range")         \

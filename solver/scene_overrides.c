@@ -53,7 +53,7 @@ void scene_push_spelling(lua_State *L, const char *key, const char *text)
         scene_refuse(L, "--set %s=%.120s: expected a list {a,b,c}", key, text);
     lua_newtable(L);
     text++;
-    for (lua_Integer i = 1;; i++) {
+    for (lua_Integer i = 1; length > 2; i++) { /* {} is the empty list */
         char item[SOLVER_NAME];
         size_t span = strcspn(text, ",}");
         if (span == 0 || span >= sizeof item)

@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 
-BOUND = re.compile(r"(gate )?(rate )?(\w+) (<=|>=) (\S+)")
+BOUND = re.compile(r"(gate )?(rate )?((?:figure )?\w[\w ]*) (<=|>=) (\S+)")
 
 
 def main():
@@ -32,7 +32,9 @@ def main():
         if not form:
             sys.exit(f"FAIL: \"{text}\": expected as \"p <= 6.5e-4\" or \"gate rate P >= 1.8\"")
         gate, rate, name, op, bound = form[1], form[2], form[3], form[4], float(form[5])
-        value = study["rates"][name] if rate else study["levels"][-1]["errors"][name]
+        finest = study["levels"][-1]
+        value = (study["rates"][name] if rate else finest["figures"][name[7:]]["error"] if name.startswith("figure ")
+                 else finest["errors"][name])
         if not (value <= bound if op == "<=" else value >= bound):
             sys.exit(f"FAIL: {text}: measured {value:.4g}")
         own = {"name": (rate or "") + name, "value": value, "bound": bound, "op": op, "pass": True}

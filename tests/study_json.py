@@ -8,8 +8,9 @@ import subprocess
 import sys
 
 TOP = {"scene", "oracle", "scheme", "stencil", "levels", "rates", "gates", "pass"}
-LEVEL = {"n", "h", "particles", "steps", "seconds", "ns_per_particle_step", "errors", "snapshots"}
+LEVEL = {"n", "h", "particles", "steps", "seconds", "ns_per_particle_step", "errors", "snapshots", "figures"}
 SNAPSHOT = {"t", "errors"}
+FIGURE = {"measured", "exact", "error"}
 GATE = {"name", "value", "bound", "op", "pass"}
 STATE = {f + e for f in ("p", "P", "P_all", "u", "F", "sigma", "sigma_all") for e in ("", "_abs", "_max", "_abs_max", "_l1")}
 PROBES = {"probes" + e for e in ("", "_abs", "_max", "_abs_max", "_l1")}
@@ -36,6 +37,14 @@ def check_snapshots(level):
         demand(level["errors"]["snapshots_" + name] == worst, f"snapshots_{name} is not {worst}")
 
 
+def check_figures(level):
+    for name, figure in level["figures"].items():
+        demand(set(figure) == FIGURE, f"keys of figure {name}: {sorted(figure)}")
+        demand(all(is_number(value) for value in figure.values()), f"figure {name} = {figure}")
+        error = abs(figure["measured"] / figure["exact"] - 1) if figure["exact"] != 0 else abs(figure["measured"])
+        demand(math.isclose(error, figure["error"], abs_tol=1e-12), f"error of figure {name} is not {error}")
+
+
 def check_level(level):
     demand(set(level) == LEVEL, f"keys of a level: {sorted(level)}")
     for key in ("n", "particles", "steps"):
@@ -45,17 +54,22 @@ def check_level(level):
     names = ERRORS | {"snapshots_" + name for name in STATE if level["snapshots"]}
     demand(set(level["errors"]) == names, f"names of errors: {sorted(level['errors'])}")
     check_snapshots(level)
+    check_figures(level)
     for name, value in level["errors"].items():
         demand(is_number(value) and value > 0, f"error {name} = {value}")
     per_step = 1e9 * level["seconds"] / (level["particles"] * level["steps"])
     demand(math.isclose(per_step, level["ns_per_particle_step"], rel_tol=1e-9), "time per particle-step")
 
 
+def errors_of(level):
+    return {**level["errors"], **{"figure " + name: figure["error"] for name, figure in level["figures"].items()}}
+
+
 def check_gate(gate, study):
     demand(set(gate) == GATE, f"keys of a gate: {sorted(gate)}")
     demand(gate["op"] in ("<=", ">=") and is_number(gate["bound"]), f"gate {gate}")
     rate = gate["name"].startswith("rate ")
-    source = study["rates"] if rate else study["levels"][-1]["errors"]
+    source = study["rates"] if rate else errors_of(study["levels"][-1])
     demand(gate["value"] == source[gate["name"][5 if rate else 0:]], f"value of gate {gate['name']}")
     holds = gate["value"] <= gate["bound"] if gate["op"] == "<=" else gate["value"] >= gate["bound"]
     demand(gate["pass"] is holds, f"gate {gate['name']} says {gate['pass']}")
@@ -69,9 +83,10 @@ def check(study, code):
     for level in study["levels"]:
         check_level(level)
     coarse, fine = study["levels"][-2:]
-    demand(set(study["rates"]) == set(fine["errors"]), "names of rates")
+    errors_before, errors = errors_of(coarse), errors_of(fine)
+    demand(set(study["rates"]) == set(errors), "names of rates")
     for name, rate in study["rates"].items():
-        order = math.log(coarse["errors"][name] / fine["errors"][name]) / math.log(coarse["h"] / fine["h"])
+        order = math.log(errors_before[name] / errors[name]) / math.log(coarse["h"] / fine["h"])
         demand(is_number(rate) and math.isclose(rate, order, abs_tol=1e-9), f"rate {name} = {rate}, not {order}")
     demand(len(study["gates"]) > 0, "at least one gate")
     for gate in study["gates"]:

@@ -23,6 +23,8 @@ cli_refuses(wrong-key "material.nuu" verify swinging-cube --set material.nuu=0.3
 cli_refuses(wrong-value "material.nu" verify swinging-cube --set material.nu=0.7)
 cli_refuses(wrong-oracle-key "oracle.V0" verify swinging-cube --set oracle.V0=1)
 cli_refuses(wrong-oracle-value "material.nu" verify swinging-cube --set oracle.material.nu=0.7)
+cli_refuses(gate-of-no-figure "the scene's key figures has no such figure" verify bimaterial-wave
+            --set figures={})
 cli_refuses(wrong-subject "did you mean keys?" list kyes)
 cli_refuses(wrong-golden-verb "check or update" golden chek swinging-cube)
 cli_refuses(no-golden-record "golden update swinging-cube" golden check swinging-cube --dir test-out/no-golden
@@ -46,6 +48,7 @@ assay_test(cli-bench-without-stencil LABELS unit COMMAND ${cli} 0 "-        -   
 assay_test(cli-list-materials LABELS unit COMMAND ${cli} 0 "Hooke's law" ${assay} list materials)
 assay_test(cli-list-stencils LABELS unit COMMAND ${cli} 0 "summation-by-parts 4-2" ${assay} list stencils)
 assay_test(cli-list-integrators LABELS unit COMMAND ${cli} 0 "four-stage" ${assay} list integrators)
+assay_test(cli-list-measures LABELS unit COMMAND ${cli} 0 "damped oscillation" ${assay} list measures)
 assay_test(cli-list-keys LABELS unit COMMAND ${cli} 0 "material.nu" ${assay} list keys)
 
 # An oracle that is told another number than the solver must make the gates fail: amplitude and modulus by 1 %.
@@ -83,6 +86,8 @@ assay_test(json-shape LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_
   test-out/json-shape swinging-cube)
 assay_test(json-shape-snapshots LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py
   ${assay} test-out/json-snapshots swinging-cube --levels 8,12 --set snapshots={5e-4,1e-3})
+assay_test(json-shape-figures LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py
+  ${assay} test-out/json-figures bimaterial-wave --levels 200,400)
 assay_test(json-shape-mismatch LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py
   ${assay} test-out/json-mismatch swinging-cube --levels 8,12 --set oracle.U0=5.05e-4)
 

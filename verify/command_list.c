@@ -5,6 +5,7 @@
 #include "solver/stencil.h"
 #include "verify/commands.h"
 #include "verify/find.h"
+#include "verify/measures.h"
 #include "verify/suggest.h"
 
 #include <stdio.h>
@@ -98,6 +99,20 @@ static bool list_integrators(struct solver_error *error)
     return true;
 }
 
+static bool list_measures(struct solver_error *error)
+{
+    (void)error;
+    (void)printf("measures of figures\n");
+    for (const struct verify_measure *measure = verify_measures(); measure->name != NULL; measure++) {
+        list_line(measure->name, measure->help);
+        for (size_t i = 0; i < VERIFY_ARGUMENTS && measure->option[i].kind != VERIFY_NO_OPTION; i++) {
+            (void)printf("  %-24s   %s = %s\n", "", measure->option[i].name,
+                         verify_option_spelling(measure->option[i].kind));
+        }
+    }
+    return true;
+}
+
 static bool list_keys(struct solver_error *error)
 {
     (void)error;
@@ -115,7 +130,7 @@ static const struct {
 } subjects[] = {
     {"scenes", list_scenes, true},       {"oracles", list_oracles, true},   {"schemes", list_schemes, true},
     {"materials", list_materials, true}, {"stencils", list_stencils, true}, {"integrators", list_integrators, true},
-    {"keys", list_keys, false},
+    {"measures", list_measures, false},  {"keys", list_keys, false},
 };
 enum { SUBJECTS = sizeof subjects / sizeof *subjects };
 
@@ -138,8 +153,8 @@ int verify_command_list(const struct verify_options *options)
         const char *meant = verify_suggest(wanted, names, SUBJECTS);
         (void)solver_fail(
             &error, SOLVER_BAD_INPUT,
-            "list %s: there are scenes, oracles, schemes, materials, stencils, integrators and keys%s%s%s", wanted,
-            meant != NULL ? "; did you mean " : "", meant != NULL ? meant : "", meant != NULL ? "?" : "");
+            "list %s: there are scenes, oracles, schemes, materials, stencils, integrators, measures and keys%s%s%s",
+            wanted, meant != NULL ? "; did you mean " : "", meant != NULL ? meant : "", meant != NULL ? "?" : "");
         return verify_complain(&error);
     }
     return VERIFY_PASSED;

@@ -1,4 +1,5 @@
 #include "verify/commands.h"
+#include "verify/figures.h"
 #include "verify/find.h"
 #include "verify/picture.h"
 #include "verify/report.h"
@@ -83,7 +84,8 @@ static bool measure(struct work *work, struct solver_run *run, struct solver_err
     return solver_run_output(run, &output, error) &&
            verify_norms_state(&output, truth->kind, truth->oracle, level->error, error) &&
            verify_norms_probes(solver_run_history(run), truth->kind, truth->oracle, work->scene->probe_scale,
-                               level->error, error);
+                               level->error, error) &&
+           verify_figures_measure(work->scene, truth, solver_run_history(run), level, error);
 }
 
 /* What is kept of the finest level alone. */
@@ -204,7 +206,8 @@ static bool study(struct work *work, bool *passed, struct solver_error *error)
     work->shown_count = verify_shown(work->scene, work->shown, error);
     /* the gates by what is measured so far, nothing: one that names what there is not is refused before the first run
      */
-    if (work->shown_count == 0 || !verify_gates_judge(work->scene, &work->level_now, &work->study.gates, error) ||
+    if (work->shown_count == 0 || !verify_figures_check(work->scene, &work->truth, error) ||
+        !verify_gates_judge(work->scene, &work->level_now, &work->study.gates, error) ||
         !verify_out_folder(work->options, work->scene->name, work->folder, error)) {
         return false;
     }

@@ -3,17 +3,38 @@
 #include <math.h>
 #include <string.h>
 
+/* Whether text begins with the word; *rest is what follows it. */
+static bool begins(const char *text, const char *word, const char **rest)
+{
+    size_t length = strlen(word);
+    bool so = strncmp(text, word, length) == 0;
+    *rest = so ? text + length : text;
+    return so;
+}
+
 size_t verify_level_error(const char *name, bool *is_rate)
 {
-    static const char prefix[] = "rate ";
-    bool rate = strncmp(name, prefix, sizeof prefix - 1) == 0;
+    bool rate = begins(name, "rate ", &name);
     if (is_rate != NULL) {
         *is_rate = rate;
     }
-    return verify_error_find(name + (rate ? sizeof prefix - 1 : 0));
+    return verify_error_find(name);
 }
 
-bool verify_level_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
+static bool figure_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
+                         bool is_rate, const char *where, double *value, struct solver_error *error)
+{
+    for (size_t i = 0; i < scene->figure_count; i++) {
+        if (strcmp(scene->figure[i].name, name) == 0) {
+            *value = is_rate ? level->figure[i].rate : level->figure[i].error;
+            return true;
+        }
+    }
+    return solver_fail(error, SOLVER_BAD_INPUT, "%s: \"figure %s\": the scene's key figures has no such figure", where,
+                       name);
+}
+
+static bool error_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
                         const char *where, struct verify_value *value, struct solver_error *error)
 {
     bool is_rate;
@@ -27,12 +48,19 @@ bool verify_level_value(const struct solver_scene *scene, const struct verify_le
     if (!verify_error_applies(scene, which, &lacks)) {
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: \"%s\" needs the scene's key %s", where, name, lacks);
     }
-    *value = (struct verify_value){
-        .value = is_rate ? level->rate[which] : level->error[which],
-        .op = is_rate ? ">=" : "<=",
-        .unit = is_rate ? "-" : verify_error_unit(which),
-    };
+    value->value = is_rate ? level->rate[which] : level->error[which];
+    value->unit = is_rate ? "-" : verify_error_unit(which);
     return true;
+}
+
+bool verify_level_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
+                        const char *where, struct verify_value *value, struct solver_error *error)
+{
+    const char *of;
+    bool is_rate = begins(name, "rate ", &of);
+    *value = (struct verify_value){.op = is_rate ? ">=" : "<=", .unit = "-"};
+    return begins(of, "figure ", &of) ? figure_value(scene, level, of, is_rate, where, &value->value, error)
+                                      : error_value(scene, level, name, where, value, error);
 }
 
 bool verify_level_snapshot(struct verify_level *level, struct solver_run *run, const struct oracle_kind *kind,

@@ -6,6 +6,14 @@
 #include "verify/norms.h"
 #include "verify/snapshot.h"
 
+/* A number measured in the run, beside the oracle's. */
+struct verify_figure {
+    double measured, exact; /* [unit] */
+    double error;           /* relative to the exact value; where that is 0, the magnitude of the measured one */
+    double rate;            /* observed order of the error from the level before; NaN at the first */
+    const char *unit;
+};
+
 struct verify_level {
     int n;                       /* spacings along the reference length */
     struct solver_facts facts;   /* spacing h, particles, steps, seconds, ... */
@@ -14,6 +22,7 @@ struct verify_level {
     double rate[VERIFY_ERRORS]; /* observed order from the level before to this one; NaN at the first */
     size_t snapshot_count;      /* taken so far */
     struct verify_snapshot snapshot[SOLVER_SNAPSHOTS];
+    struct verify_figure figure[SOLVER_FIGURES]; /* of the scene's, in its order */
 };
 
 /* A measured value and how a bound holds it. */
@@ -26,8 +35,8 @@ struct verify_value {
 /* The error that a gate's name is of, VERIFY_ERRORS if there is none; *is_rate (may be NULL): "rate " stands before it.
  */
 size_t verify_level_error(const char *name, bool *is_rate);
-/* The value a gate names: an error, or "rate " and an error. If the scene cannot have it, fails (SOLVER_BAD_INPUT)
- * with what there is; the text begins with `where`. */
+/* The value a gate names: an error or "figure NAME" (its error), or "rate " and one of these. If the scene cannot have
+ * it, fails (SOLVER_BAD_INPUT) with what there is; the text begins with `where`. */
 bool verify_level_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
                         const char *where, struct verify_value *value, struct solver_error *error);
 

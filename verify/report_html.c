@@ -197,6 +197,45 @@ static void snapshots(FILE *file, const struct verify_study *study, const size_t
     (void)fprintf(file, "</table>\n");
 }
 
+static void number(FILE *file, double value)
+{
+    if (isnan(value)) {
+        (void)fputs("<td>&ndash;</td>", file);
+    } else {
+        (void)fprintf(file, "<td>%.9g</td>", value);
+    }
+}
+
+static void figures(FILE *file, const struct verify_study *study)
+{
+    const struct verify_level *finest = &study->level[study->level_count - 1];
+    if (study->scene->figure_count == 0) {
+        return;
+    }
+    (void)fprintf(file, "<h2>Figures measured</h2><table><tr><th>figure</th><th>unit</th><th>exact</th><th>measured, "
+                        "finest level</th>");
+    for (size_t i = 0; i < study->level_count; i++) {
+        (void)fprintf(file, "<th>error [-]<br>n = %d</th>", study->level[i].n);
+    }
+    (void)fprintf(file, "<th>order</th></tr>\n");
+    for (size_t i = 0; i < study->scene->figure_count; i++) {
+        const struct verify_figure *figure = &finest->figure[i];
+        (void)fprintf(file, "<tr><td>");
+        escape(file, study->scene->figure[i].name);
+        (void)fprintf(file, "</td><td>%s</td>", figure->unit);
+        number(file, figure->exact);
+        number(file, figure->measured);
+        for (size_t j = 0; j < study->level_count; j++) {
+            cell(file, "e", study->level[j].figure[i].error);
+        }
+        cell(file, "f", figure->rate);
+        (void)fprintf(file, "</tr>\n");
+    }
+    (void)fprintf(file,
+                  "</table>\n<p class=\"note\">Error: |measured / exact &minus; 1|, or |measured| where the exact "
+                  "value is 0. How each is measured stands in the scene under figures.</p>\n");
+}
+
 static void gates(FILE *file, const struct verify_gates *judged)
 {
     (void)fprintf(file, "<h2>Gates</h2>\n");
@@ -208,8 +247,10 @@ static void gates(FILE *file, const struct verify_gates *judged)
                   "<table><tr><th>gate</th><th>measured</th><th></th><th>bound</th><th>unit</th><th></th></tr>\n");
     for (size_t i = 0; i < judged->count; i++) {
         const struct verify_gate *gate = &judged->gate[i];
-        (void)fprintf(file, "<tr><td>%s</td><td>%.4g</td><td>%s</td><td>%.4g</td><td>%s</td><td class=\"%s</td></tr>\n",
-                      gate->name, gate->value, gate->op[0] == '<' ? "&le;" : "&ge;", gate->bound, gate->unit,
+        (void)fprintf(file, "<tr><td>");
+        escape(file, gate->name);
+        (void)fprintf(file, "</td><td>%.4g</td><td>%s</td><td>%.4g</td><td>%s</td><td class=\"%s</td></tr>\n",
+                      gate->value, gate->op[0] == '<' ? "&le;" : "&ge;", gate->bound, gate->unit,
                       gate->pass ? "pass\">PASS" : "fail\">FAIL");
     }
     (void)fprintf(file, "</table>\n");
@@ -300,6 +341,7 @@ bool verify_html(FILE *file, const struct verify_study *study, const size_t *sho
     if (study->level_count > 0) {
         levels(file, study, shown, shown_count);
         snapshots(file, study, shown, shown_count);
+        figures(file, study);
         (void)fprintf(file, "<h2>Convergence</h2><div class=\"row\">\n");
         for (size_t i = 0; i < shown_count; i++) {
             verify_plot(file, study, shown[i]);

@@ -63,17 +63,35 @@ static void number_member(FILE *file, const char *key, double value)
     number(file, value);
 }
 
-/* {NAME: value} over the first `count` errors, of which only those that the scene and its scheme can have. */
+/* NAME: value over the first `count` errors, of which only those that the scene and its scheme can have. */
 static void errors(FILE *file, const struct solver_scene *scene, size_t count, const double *value)
 {
     const char *lacks = NULL;
     const char *between = "";
-    (void)fputc('{', file);
     for (size_t i = 0; i < count; i++) {
         if (verify_error_applies(scene, i, &lacks)) {
             (void)fputs(between, file);
             number_member(file, verify_error_name(i), value[i]);
             between = ", ";
+        }
+    }
+}
+
+/* {NAME: order} over errors and figures; one level has none. */
+static void rates(FILE *file, const struct verify_study *study)
+{
+    const struct solver_scene *scene = study->scene;
+    const struct verify_level *finest = &study->level[study->level_count - 1];
+    (void)fputs("],\n  \"rates\": {", file);
+    if (study->level_count > 1) {
+        errors(file, scene, VERIFY_ERRORS, finest->rate);
+        for (size_t i = 0; i < scene->figure_count; i++) {
+            char name[SOLVER_NAME + 8];
+            (void)snprintf(name, sizeof name, "figure %s", scene->figure[i].name);
+            (void)fputs(", ", file);
+            verify_json_string(file, name);
+            (void)fputs(": ", file);
+            number(file, finest->figure[i].rate);
         }
     }
     (void)fputc('}', file);
@@ -85,11 +103,29 @@ static void snapshots(FILE *file, const struct solver_scene *scene, const struct
     for (size_t i = 0; i < level->snapshot_count; i++) {
         (void)fputs(i == 0 ? "{" : ", {", file);
         number_member(file, "t", level->snapshot[i].time);
-        (void)fputs(", \"errors\": ", file);
+        (void)fputs(", \"errors\": {", file);
         errors(file, scene, VERIFY_STATE_ERRORS, level->snapshot[i].error);
-        (void)fputc('}', file);
+        (void)fputs("}}", file);
     }
     (void)fputc(']', file);
+}
+
+/* {NAME: {...}} over the scene's figures. */
+static void figures(FILE *file, const struct solver_scene *scene, const struct verify_level *level)
+{
+    (void)fputs(", \"figures\": {", file);
+    for (size_t i = 0; i < scene->figure_count; i++) {
+        (void)fputs(i == 0 ? "" : ", ", file);
+        verify_json_string(file, scene->figure[i].name);
+        (void)fputs(": {", file);
+        number_member(file, "measured", level->figure[i].measured);
+        (void)fputs(", ", file);
+        number_member(file, "exact", level->figure[i].exact);
+        (void)fputs(", ", file);
+        number_member(file, "error", level->figure[i].error);
+        (void)fputc('}', file);
+    }
+    (void)fputc('}', file);
 }
 
 static void level_object(FILE *file, const struct solver_scene *scene, const struct verify_level *level)
@@ -100,9 +136,11 @@ static void level_object(FILE *file, const struct solver_scene *scene, const str
     number_member(file, "seconds", level->facts.seconds);
     (void)fputs(", ", file);
     number_member(file, "ns_per_particle_step", level->ns_per_particle_step);
-    (void)fputs(", \"errors\": ", file);
+    (void)fputs(", \"errors\": {", file);
     errors(file, scene, VERIFY_ERRORS, level->error);
+    (void)fputc('}', file);
     snapshots(file, scene, level);
+    figures(file, scene, level);
     (void)fputc('}', file);
 }
 
@@ -154,12 +192,7 @@ void verify_json(FILE *file, const struct verify_study *study)
         (void)fputs(i == 0 ? "\n    " : ",\n    ", file);
         level_object(file, study->scene, &study->level[i]);
     }
-    (void)fputs("],\n  \"rates\": ", file);
-    if (study->level_count > 1) {
-        errors(file, study->scene, VERIFY_ERRORS, study->level[study->level_count - 1].rate);
-    } else {
-        (void)fputs("{}", file); /* one level has no order */
-    }
+    rates(file, study);
     (void)fputs(",\n  \"gates\": [", file);
     gate_list(file, study);
     const char *verdict = !study->truth->proven || (study->gates.count > 0 && !study->gates.pass) ? "false"

@@ -162,6 +162,21 @@ const char *verify_residual(char text[VERIFY_RESIDUAL], const struct solver_fact
     return text;
 }
 
+static void print_figures(FILE *file, const struct verify_study *study)
+{
+    const struct verify_level *finest = &study->level[study->level_count - 1];
+    for (size_t i = 0; i < study->scene->figure_count; i++) {
+        const struct verify_figure *figure = &finest->figure[i];
+        char error[32], rate[32];
+        if (i == 0) {
+            (void)fprintf(file, "\n  %-24s %16s %16s %-8s %10s %6s\n", "figure, finest level", "measured", "exact",
+                          "unit", "error [-]", "order");
+        }
+        (void)fprintf(file, "  %-24s %16.9g %16.9g %-8s %10s %6s\n", study->scene->figure[i].name, figure->measured,
+                      figure->exact, figure->unit, scientific(error, figure->error), order(rate, figure->rate));
+    }
+}
+
 static void print_facts(FILE *file, const struct verify_study *study)
 {
     const struct solver_facts *facts = &study->level[study->level_count - 1].facts;
@@ -203,6 +218,7 @@ void verify_terminal_end(FILE *file, const struct verify_study *study, const siz
 {
     print_orders(file, study, shown, shown_count);
     print_snapshots(file, study, shown, shown_count);
+    print_figures(file, study);
     print_facts(file, study);
     print_gates(file, study);
 }

@@ -19,8 +19,8 @@ static bool keep_profile(const struct solver_output *output, const struct oracle
     for (size_t a = 0; a < snapshot->count; a++) {
         const double X[3] = {output->cloud->X[a], 0, 0};
         struct oracle_state state;
-        kind->state(oracle, X, output->time, &state);
         double sigma[9];
+        kind->state(oracle, X, output->time, &state);
         oracle_cauchy(kind, &state, sigma);
         snapshot->point[a] = (struct verify_point){.X = X[0], .computed = output->sigma[a], .exact = sigma[0]};
     }

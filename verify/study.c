@@ -3,7 +3,6 @@
 #include "solver/scheme.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 double verify_order(double e1, double h1, double e2, double h2)
@@ -12,50 +11,37 @@ double verify_order(double e1, double h1, double e2, double h2)
     return sensible ? log(e1 / e2) / log(h1 / h2) : NAN;
 }
 
+/* NaN if there is no level before. */
+static double order_from(const struct verify_level *before, double error_before, const struct verify_level *now,
+                         double error)
+{
+    return before == NULL ? NAN : verify_order(error_before, before->facts.spacing, error, now->facts.spacing);
+}
+
 void verify_study_add(struct verify_study *study, const struct verify_level *level)
 {
     struct verify_level *added = &study->level[study->level_count];
     *added = *level;
     double particle_steps = (double)level->facts.particles * (double)level->facts.steps;
     added->ns_per_particle_step = 1e9 * level->facts.seconds / particle_steps;
+    const struct verify_level *before = study->level_count > 0 ? added - 1 : NULL;
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
-        const struct verify_level *before = added - 1;
-        added->rate[i] = study->level_count == 0 ? NAN
-                                                 : verify_order(before->error[i], before->facts.spacing,
-                                                                added->error[i], added->facts.spacing);
+        added->rate[i] = order_from(before, before != NULL ? before->error[i] : NAN, added, added->error[i]);
+    }
+    for (size_t i = 0; i < SOLVER_FIGURES; i++) {
+        struct verify_figure *figure = &added->figure[i];
+        figure->rate = order_from(before, before != NULL ? before->figure[i].error : NAN, added, figure->error);
     }
     study->level_count++;
-}
-
-static int liveliest(const struct solver_history *history, size_t probe)
-{
-    double reach[3] = {0};
-    for (size_t row = 0; row < history->count; row++) {
-        for (int axis = 0; axis < 3; axis++) {
-            reach[axis] =
-                fmax(reach[axis], fabs(history->probe_u[(row * history->probe_count + probe) * 3 + (size_t)axis]));
-        }
-    }
-    return reach[0] >= reach[1] && reach[0] >= reach[2] ? 0 : reach[1] >= reach[2] ? 1 : 2;
 }
 
 bool verify_study_trace(struct verify_study *study, const struct solver_history *history, struct solver_error *error)
 {
     for (size_t probe = 0; probe < history->probe_count; probe++) {
-        struct verify_trace *trace = &study->trace[study->trace_count];
-        *trace = (struct verify_trace){.axis = liveliest(history, probe), .count = history->count};
-        trace->time = calloc(history->count, 2 * sizeof *trace->time);
-        if (trace->time == NULL) {
-            return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the traces of %zu probes", history->probe_count);
+        if (!verify_trace_take(history, probe, &study->trace[study->trace_count], error)) {
+            return false;
         }
         study->trace_count++;
-        trace->displacement = trace->time + history->count;
-        memcpy(trace->name, history->probe_name[probe], sizeof trace->name);
-        memcpy(trace->X, history->probe_X[probe], sizeof trace->X);
-        for (size_t row = 0; row < history->count; row++) {
-            trace->time[row] = history->totals[row].time;
-            trace->displacement[row] = history->probe_u[(row * history->probe_count + probe) * 3 + (size_t)trace->axis];
-        }
     }
     return true;
 }
@@ -63,7 +49,7 @@ bool verify_study_trace(struct verify_study *study, const struct solver_history 
 void verify_study_free(struct verify_study *study)
 {
     for (size_t i = 0; i < study->trace_count; i++) {
-        free(study->trace[i].time);
+        verify_trace_free(&study->trace[i]);
     }
     for (size_t i = 0; i < study->level_count; i++) {
         verify_level_free(&study->level[i]);
@@ -139,6 +125,22 @@ static void want(bool wanted[VERIFY_ERRORS], size_t error)
     }
 }
 
+/* Those wanted that the scheme knows; p and the stress where nothing is asked for. */
+static size_t list(const struct solver_scene *scene, const bool wanted[VERIFY_ERRORS], size_t shown[VERIFY_ERRORS])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
+        if (wanted[i] && verify_error_known(scene, i)) {
+            shown[count++] = i;
+        }
+    }
+    if (count == 0) {
+        shown[count++] = verify_error_find("p");
+        shown[count++] = verify_error_find(verify_error_known(scene, verify_error_find("P")) ? "P" : "sigma");
+    }
+    return count;
+}
+
 size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], struct solver_error *error)
 {
     bool wanted[VERIFY_ERRORS] = {false};
@@ -160,17 +162,7 @@ size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS
             want(wanted, verify_level_error(name, NULL));
         }
     }
-    size_t count = 0;
-    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
-        if (wanted[i] && verify_error_known(scene, i)) {
-            shown[count++] = i;
-        }
-    }
-    if (count == 0) {
-        shown[count++] = verify_error_find("p");
-        shown[count++] = verify_error_find(verify_error_known(scene, verify_error_find("P")) ? "P" : "sigma");
-    }
-    return count;
+    return list(scene, wanted, shown);
 }
 
 size_t verify_shown_snapshots(const size_t *shown, size_t shown_count, size_t of_state[VERIFY_STATE_ERRORS])

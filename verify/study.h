@@ -6,18 +6,10 @@
 #include "verify/files.h"
 #include "verify/gates.h"
 #include "verify/level.h"
+#include "verify/trace.h"
 #include "verify/truth.h"
 
 #include <stddef.h>
-
-/* Displacement of a probe over time, of the component that moves most. */
-struct verify_trace {
-    char name[SOLVER_NAME];
-    double X[3]; /* [m] */
-    int axis;    /* 0, 1, 2 */
-    size_t count;
-    double *time, *displacement; /* [count] each, one block that `time` owns; [s], [m] */
-};
 
 struct verify_study {
     const struct solver_scene *scene; /* as loaded for the finest level done */

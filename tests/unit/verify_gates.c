@@ -117,6 +117,27 @@ static void all_conditions_count(void)
     CU_ASSERT_STRING_EQUAL(gates.gate[0].name, "P_abs");
 }
 
+/* Errors of figures and their orders, by name. */
+static void figures(void)
+{
+    prepare();
+    scene->figure_count = 2;
+    strcpy(scene->figure[0].name, "period");
+    strcpy(scene->figure[1].name, "contact time");
+    level.figure[1] = (struct verify_figure){.error = 3e-4, .rate = 1.5};
+    scene->gate[0].bounds = 2;
+    scene->gate[0].bound[0] = (struct solver_named){"figure contact time", 1e-3};
+    scene->gate[0].bound[1] = (struct solver_named){"rate figure contact time", 1.6};
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_EQUAL_FATAL(gates.count, 2);
+    CU_ASSERT(gates.gate[0].value == 3e-4 && strcmp(gates.gate[0].op, "<=") == 0 && gates.gate[0].pass);
+    CU_ASSERT(gates.gate[1].value == 1.5 && strcmp(gates.gate[1].op, ">=") == 0 && !gates.gate[1].pass);
+    strcpy(scene->gate[0].bound[0].name, "figure contact");
+    CU_ASSERT_FALSE(judge());
+    CU_ASSERT_EQUAL(why.code, SOLVER_BAD_INPUT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "\"figure contact\""));
+}
+
 static void no_rule(void)
 {
     prepare();
@@ -176,6 +197,7 @@ int main(void)
         {"one bound decides", one_bound_decides},
         {"a rule without conditions", without_conditions},
         {"all conditions count", all_conditions_count},
+        {"figures", figures},
         {"no rule", no_rule},
         {"fields that a scheme has not", fields_that_a_scheme_has_not},
         {"wrong rules", wrong_rules},

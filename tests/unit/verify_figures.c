@@ -1,0 +1,233 @@
+/* Figures: what is refused, and what the measures find in made-up motions and profiles. */
+#include "tests/unit/unit.h"
+#include "verify/figures.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { ROWS = 2001 };
+static double times[ROWS], motion[ROWS];
+
+/* A damped oscillation about an offset, with another motion added: `rows` rows over 4.3 s. */
+static double period_of(size_t rows, double T, double damping, double offset, double other)
+{
+    for (size_t i = 0; i < rows; i++) {
+        double t = 4.3 * (double)i / (double)(rows - 1);
+        times[i] = t;
+        motion[i] = offset + 2e-3 * exp(-damping * t) * sin(2 * M_PI * t / T + 0.3) + other * sin(40 * t);
+    }
+    return verify_period_fit(rows, times, motion);
+}
+
+static void clean_oscillations(void)
+{
+    for (int i = 0; i < 20; i++) {
+        double T = 0.3 + 0.13 * i; /* 14 to 1.5 periods */
+        CU_ASSERT_DOUBLE_EQUAL(period_of(201, T, 0, 0, 0), T, 1e-9 * T);
+        CU_ASSERT_DOUBLE_EQUAL(period_of(ROWS, T, 0, 5e-4, 0), T, 1e-9 * T);
+        CU_ASSERT_DOUBLE_EQUAL(period_of(201, T, 0.2, -5e-4, 0), T, 1e-9 * T);
+    }
+}
+
+/* A second mode of 2 % moves the period of least squares by far less than itself. */
+static void another_mode(void)
+{
+    double T = 0.5, found = period_of(ROWS, T, 0, 0, 4e-5);
+    CU_ASSERT_DOUBLE_EQUAL(found, T, 2e-4 * T);
+    CU_ASSERT(found != T);
+}
+
+static void no_oscillation(void)
+{
+    CU_ASSERT(isnan(period_of(201, 9, 0, 0, 0))); /* half a period */
+    for (size_t i = 0; i < 201; i++) {
+        motion[i] = 3;
+    }
+    CU_ASSERT(isnan(verify_period_fit(201, times, motion)));
+    for (size_t i = 0; i < 201; i++) {
+        motion[i] = (double)((i * i * 7919 + i * 104729) % 1009); /* noise */
+    }
+    CU_ASSERT(isnan(verify_period_fit(201, times, motion)));
+    CU_ASSERT(isnan(verify_period_fit(0, times, motion)));
+    CU_ASSERT(isnan(verify_period_fit(9, times, motion)));
+    (void)period_of(201, 0.5, 0, 0, 0);
+    motion[77] = NAN;
+    CU_ASSERT(isnan(verify_period_fit(201, times, motion)));
+}
+
+static struct verify_point point[64];
+
+/* A parabola of height -7 about X = 0.313, between particles. */
+static void peaks(void)
+{
+    for (size_t i = 0; i < 64; i++) {
+        double X = (double)i / 63;
+        point[i] = (struct verify_point){.X = X, .computed = -7 + 30 * (X - 0.313) * (X - 0.313)};
+    }
+    CU_ASSERT_DOUBLE_EQUAL(verify_peak(64, point, 0, 0.7), -7, 1e-12);
+    CU_ASSERT(isnan(verify_peak(64, point, 0.4, 0.7))); /* the largest lies at an end of the window: no peak */
+    CU_ASSERT(isnan(verify_peak(64, point, 2, 3)));
+    CU_ASSERT(isnan(verify_peak(64, point, 0, 0.01)));
+    point[20].X += 0.004; /* uneven spacing */
+    point[20].computed = -7 + 30 * (point[20].X - 0.313) * (point[20].X - 0.313);
+    CU_ASSERT_DOUBLE_EQUAL(verify_peak(64, point, 0, 0.7), -7, 1e-12);
+    point[5].computed = NAN;
+    CU_ASSERT(isnan(verify_peak(64, point, 0, 0.7)));
+}
+
+static struct solver_scene *scene;
+static struct verify_truth truth;
+static struct solver_error error;
+
+static void open_scene(const char *name)
+{
+    char path[512];
+    verify_truth_free(&truth);
+    solver_scene_free(scene);
+    (void)snprintf(path, sizeof path, TEST_SOURCE_DIR "/verify/scenes/%s.lua", name);
+    CU_ASSERT_FATAL(solver_scene_load(path, NULL, 0, &scene, &error) && verify_truth_create(scene, &truth, &error));
+}
+
+static struct verify_level level;
+
+/* The exact profiles in place of computed ones. */
+static void exact_snapshots(size_t count)
+{
+    static struct verify_point all[SOLVER_SNAPSHOTS][4097];
+    level = (struct verify_level){.snapshot_count = scene->snapshot_count};
+    for (size_t s = 0; s < scene->snapshot_count; s++) {
+        level.snapshot[s] = (struct verify_snapshot){.time = scene->snapshot[s], .count = count, .point = all[s]};
+        for (size_t i = 0; i < count; i++) {
+            const double X[3] = {scene->upper[0] * (double)i / (double)(count - 1), 0, 0};
+            struct oracle_state state;
+            truth.kind->state(truth.oracle, X, scene->snapshot[s], &state);
+            all[s][i] = (struct verify_point){.X = X[0], .computed = state.P[0], .exact = state.P[0]};
+        }
+    }
+}
+
+static const struct verify_figure *figure_of(const char *name)
+{
+    for (size_t i = 0; i < scene->figure_count; i++) {
+        if (strcmp(scene->figure[i].name, name) == 0) {
+            return &level.figure[i];
+        }
+    }
+    CU_FAIL_FATAL("the scene has no such figure");
+    return NULL;
+}
+
+/* The measures of the exact solution give the oracle's own figures, and what is put there on purpose. */
+static void of_the_exact_wave(void)
+{
+    const struct solver_history none = {.count = 0};
+    open_scene("bimaterial-wave");
+    CU_ASSERT_FATAL(verify_figures_check(scene, &truth, &error));
+    exact_snapshots(4097);
+    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, &level, &error));
+    CU_ASSERT(figure_of("reflection")->error < 1e-8 && figure_of("transmission")->error < 1e-8);
+    CU_ASSERT_DOUBLE_EQUAL(figure_of("reflection")->exact, 0.40583, 5e-6);
+    CU_ASSERT_DOUBLE_EQUAL(figure_of("transmission")->exact, 1.40583, 5e-6);
+    CU_ASSERT(figure_of("ahead of the front")->measured == 0);
+    double peak = 0;
+    for (size_t i = 0; i < 4097; i++) {
+        level.snapshot[1].point[i].computed *= 1.01; /* the incident pulse, 1 % too high */
+        peak = fmax(peak, fabs(level.snapshot[1].point[i].exact));
+    }
+    level.snapshot[1].point[4000].computed = 0.02 * peak; /* where nothing has arrived */
+    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, &level, &error));
+    CU_ASSERT_DOUBLE_EQUAL(figure_of("reflection")->error, 1 - 1 / 1.01, 1e-8);
+    CU_ASSERT_DOUBLE_EQUAL(figure_of("ahead of the front")->error, 0.02, 1e-12);
+    level.snapshot[1].point[4001].computed = NAN;
+    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, &level, &error));
+    CU_ASSERT(isnan(figure_of("ahead of the front")->error));
+}
+
+/* Behind the pulse nothing is left either, but no front is coming: what stands there is not ahead. */
+static void behind_is_not_ahead(void)
+{
+    const struct solver_history none = {.count = 0};
+    open_scene("bimaterial-wave");
+    exact_snapshots(4097);
+    level.snapshot[1].point[5].computed = 1e9;
+    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, &level, &error));
+    CU_ASSERT(figure_of("ahead of the front")->measured == 0);
+}
+
+static void refused(const char *expected)
+{
+    bool good = verify_figures_check(scene, &truth, &error);
+    bool told = !good && error.code == SOLVER_BAD_INPUT && strstr(error.text, expected) != NULL;
+    if (!told) {
+        printf("\n    expected: %s\n         got: %s", expected, good ? "no error" : error.text);
+    }
+    CU_ASSERT(told);
+}
+
+static struct solver_figure *first_figure(void)
+{
+    open_scene("bimaterial-wave");
+    scene->figure_count = 1;
+    scene->figure[0] = (struct solver_figure){.name = "reflection",
+                                              .measure = "stress ratio",
+                                              .option_count = 2,
+                                              .option = {{.name = "of", .count = 3, .number = {3e-4, 0, 1}},
+                                                         {.name = "over", .count = 3, .number = {1e-4, 0, 1}}}};
+    CU_ASSERT(verify_figures_check(scene, &truth, &error));
+    return &scene->figure[0];
+}
+
+static void refusals(void)
+{
+    strcpy(first_figure()->measure, "stress");
+    refused("figures.reflection: there is no measure \"stress\"; see assay list measures");
+    strcpy(first_figure()->name, "reflexion");
+    refused("figures.reflexion: the oracle \"bimaterial-wave\" has no figure of this name");
+    first_figure()->option_count = 1;
+    refused("figures.reflection: over: missing; expected { t [s], X0 [m], X1 [m] }, t being one of the snapshots");
+    first_figure()->option[0].number[0] = 3.1e-4;
+    refused("figures.reflection: of: not as it must be; expected { t [s], X0 [m], X1 [m] }");
+    first_figure()->option[1].number[2] = -1;
+    refused("figures.reflection: over: not as it must be");
+    first_figure()->option[1].count = 2;
+    refused("figures.reflection: over: not as it must be");
+    struct solver_figure *figure = first_figure();
+    figure->option_count = 3;
+    strcpy(figure->option[2].name, "time");
+    refused("figures.reflection: the measure \"stress ratio\" has no option \"time\"");
+    figure = first_figure();
+    *figure = (struct solver_figure){.name = "first echo", .measure = "period", .option_count = 1};
+    figure->option[0] = (struct solver_option){.name = "probe", .text = "tip"};
+    refused("figures.first echo: probe: not as it must be; expected the name of a probe");
+    (void)first_figure();
+    scene->dim = 2;
+    refused("figures.reflection: the measure \"stress ratio\" is for dim = 1, the scene has dim = 2");
+    figure = first_figure();
+    *figure = (struct solver_figure){.name = "noise", .measure = "stress ahead"};
+    CU_ASSERT(verify_figures_check(scene, &truth, &error));
+    scene->snapshot_count = 0;
+    refused("figures.noise: the measure \"stress ahead\" needs snapshots");
+    open_scene("swinging-cube");
+    scene->dim = 1; /* for the oracle's sake alone */
+    scene->figure_count = 1;
+    scene->figure[0] = (struct solver_figure){.name = "noise", .measure = "stress ahead"};
+    refused("figures.noise: the measure \"stress ahead\" needs an oracle that has fronts");
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"clean oscillations", clean_oscillations},
+        {"another mode besides", another_mode},
+        {"no oscillation has no period", no_oscillation},
+        {"peaks", peaks},
+        {"of the exact wave", of_the_exact_wave},
+        {"behind is not ahead", behind_is_not_ahead},
+        {"refusals", refusals},
+    };
+    int code = unit_main("figures", tests, sizeof tests / sizeof *tests);
+    verify_truth_free(&truth);
+    solver_scene_free(scene);
+    return code;
+}

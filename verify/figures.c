@@ -1,0 +1,135 @@
+#include "verify/figures.h"
+
+#include <math.h>
+#include <string.h>
+
+#define WHERE             "%.300s: figures.%s: "
+#define OF(scene, figure) (scene)->path, (figure)->name
+
+static bool read_window(const struct solver_scene *scene, const struct solver_option *given,
+                        struct verify_argument *argument)
+{
+    *argument = (struct verify_argument){.snapshot = 0, .from = given->number[1], .to = given->number[2]};
+    while (argument->snapshot < scene->snapshot_count && scene->snapshot[argument->snapshot] != given->number[0]) {
+        argument->snapshot++;
+    }
+    return given->count == 3 && argument->snapshot < scene->snapshot_count && argument->from < argument->to;
+}
+
+static bool read_probe(const struct solver_scene *scene, const struct solver_option *given,
+                       struct verify_argument *argument)
+{
+    *argument = (struct verify_argument){.probe = 0};
+    while (argument->probe < scene->probe_count && strcmp(scene->probe[argument->probe].name, given->text) != 0) {
+        argument->probe++;
+    }
+    return argument->probe < scene->probe_count;
+}
+
+static const struct solver_option *find_option(const struct solver_figure *figure, const char *name)
+{
+    for (size_t i = 0; i < figure->option_count; i++) {
+        if (strcmp(figure->option[i].name, name) == 0) {
+            return &figure->option[i];
+        }
+    }
+    return NULL;
+}
+
+/* The arguments that the scene gives the measure, in its order; refuses those missing, wrong and unknown. */
+static bool read_arguments(const struct solver_scene *scene, const struct solver_figure *figure,
+                           const struct verify_measure *measure, struct verify_argument *argument,
+                           struct solver_error *error)
+{
+    size_t known = 0;
+    for (; known < VERIFY_ARGUMENTS && measure->option[known].kind != VERIFY_NO_OPTION; known++) {
+        const char *name = measure->option[known].name;
+        enum verify_option kind = measure->option[known].kind;
+        const struct solver_option *given = find_option(figure, name);
+        if (given == NULL || !(kind == VERIFY_WINDOW ? read_window : read_probe)(scene, given, &argument[known])) {
+            return solver_fail(error, SOLVER_BAD_INPUT, WHERE "%s: %s; expected %s", OF(scene, figure), name,
+                               given == NULL ? "missing" : "not as it must be", verify_option_spelling(kind));
+        }
+    }
+    for (size_t i = 0; i < figure->option_count; i++) {
+        bool taken = false;
+        for (size_t j = 0; j < known; j++) {
+            taken = taken || strcmp(figure->option[i].name, measure->option[j].name) == 0;
+        }
+        if (!taken) {
+            return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" has no option \"%s\"",
+                               OF(scene, figure), measure->name, figure->option[i].name);
+        }
+    }
+    return true;
+}
+
+/* The oracle's figure of that name; a NaN value and no unit if it has none. */
+static struct oracle_figure exact_figure(const struct verify_truth *truth, const char *name)
+{
+    struct oracle_figure figure[ORACLE_FIGURES];
+    size_t count = truth->kind->figures != NULL ? truth->kind->figures(truth->oracle, figure) : 0;
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(figure[i].name, name) == 0) {
+            return figure[i];
+        }
+    }
+    return (struct oracle_figure){.value = NAN};
+}
+
+static bool check(const struct solver_scene *scene, const struct verify_truth *truth,
+                  const struct solver_figure *figure, struct solver_error *error)
+{
+    const struct verify_measure *measure = verify_measure_find(figure->measure);
+    struct verify_argument argument[VERIFY_ARGUMENTS];
+    if (measure == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT, WHERE "there is no measure \"%s\"; see assay list measures",
+                           OF(scene, figure), figure->measure);
+    }
+    if (measure->in_1d_only && scene->dim != 1) {
+        return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" is for dim = 1, the scene has dim = %d",
+                           OF(scene, figure), measure->name, scene->dim);
+    }
+    if (measure->needs_fronts && (truth->kind->fronts == NULL || scene->snapshot_count == 0)) {
+        return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" needs %s", OF(scene, figure),
+                           measure->name, truth->kind->fronts == NULL ? "an oracle that has fronts" : "snapshots");
+    }
+    if (!measure->none_is_exact && exact_figure(truth, figure->name).unit == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           WHERE "the oracle \"%s\" has no figure of this name; the report lists those it has",
+                           OF(scene, figure), truth->kind->name);
+    }
+    return read_arguments(scene, figure, measure, argument, error);
+}
+
+bool verify_figures_check(const struct solver_scene *scene, const struct verify_truth *truth,
+                          struct solver_error *error)
+{
+    for (size_t i = 0; i < scene->figure_count; i++) {
+        if (!check(scene, truth, &scene->figure[i], error)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool verify_figures_measure(const struct solver_scene *scene, const struct verify_truth *truth,
+                            const struct solver_history *history, struct verify_level *level,
+                            struct solver_error *error)
+{
+    const struct verify_measuring in = {.scene = scene, .truth = truth, .level = level, .history = history};
+    for (size_t i = 0; i < scene->figure_count; i++) {
+        const struct verify_measure *measure = verify_measure_find(scene->figure[i].measure);
+        struct verify_argument argument[VERIFY_ARGUMENTS];
+        struct verify_figure *out = &level->figure[i];
+        struct oracle_figure exact = exact_figure(truth, scene->figure[i].name);
+        *out = (struct verify_figure){.exact = measure->none_is_exact ? 0 : exact.value,
+                                      .unit = measure->none_is_exact ? "-" : exact.unit};
+        if (!read_arguments(scene, &scene->figure[i], measure, argument, error) ||
+            !measure->measure(&in, argument, &out->measured, error)) {
+            return false;
+        }
+        out->error = out->exact == 0 ? fabs(out->measured) : fabs(out->measured / out->exact - 1);
+    }
+    return true;
+}

@@ -1,0 +1,42 @@
+#include "verify/measures.h"
+
+#include <string.h>
+
+static const struct verify_measure measures[] = {
+    {.name = "stress ratio",
+     .help = "peak stress in the window `of` over that in the window `over`",
+     .option = {{"of", VERIFY_WINDOW}, {"over", VERIFY_WINDOW}},
+     .in_1d_only = true,
+     .measure = verify_stress_ratio},
+    {.name = "stress ahead",
+     .help = "largest stress where no front has arrived yet over the exact peak, in all snapshots",
+     .in_1d_only = true,
+     .none_is_exact = true,
+     .needs_fronts = true,
+     .measure = verify_stress_ahead},
+    {.name = "period",
+     .help = "of a probe's displacement, by a fit of a damped oscillation",
+     .option = {{"probe", VERIFY_PROBE}},
+     .measure = verify_period},
+    {.name = NULL},
+};
+
+const struct verify_measure *verify_measures(void)
+{
+    return measures;
+}
+
+const struct verify_measure *verify_measure_find(const char *name)
+{
+    for (const struct verify_measure *measure = measures; measure->name != NULL; measure++) {
+        if (strcmp(measure->name, name) == 0) {
+            return measure;
+        }
+    }
+    return NULL;
+}
+
+const char *verify_option_spelling(enum verify_option kind)
+{
+    return kind == VERIFY_WINDOW ? "{ t [s], X0 [m], X1 [m] }, t being one of the snapshots" : "the name of a probe";
+}

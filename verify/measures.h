@@ -1,0 +1,68 @@
+/* Ways to measure a figure in a run. A new one is one function and one line of the table in measures.c. */
+#ifndef VERIFY_MEASURES_H
+#define VERIFY_MEASURES_H
+
+#include "solver/run.h"
+#include "verify/level.h"
+#include "verify/truth.h"
+
+/* What a figure is measured in: the level's snapshots are taken, the run is over. */
+struct verify_measuring {
+    const struct solver_scene *scene;
+    const struct verify_truth *truth;
+    const struct verify_level *level;
+    const struct solver_history *history;
+};
+
+/* Options of a measure, all of which it needs. */
+enum verify_option {
+    VERIFY_NO_OPTION,
+    VERIFY_WINDOW, /* { t, X0, X1 }: part of a snapshot of a one-dimensional body */
+    VERIFY_PROBE   /* the name of a probe */
+};
+
+struct verify_argument {
+    size_t snapshot; /* which one a window looks at */
+    double from, to; /* [m] */
+    size_t probe;
+};
+
+enum { VERIFY_ARGUMENTS = 4 };
+
+struct verify_measure {
+    const char *name, *help;
+    struct {
+        const char *name;
+        enum verify_option kind;
+    } option[VERIFY_ARGUMENTS]; /* ends with VERIFY_NO_OPTION, unless full */
+    bool in_1d_only;
+    bool none_is_exact; /* the exact value is 0; otherwise the oracle has a figure of the same name */
+    bool needs_fronts;
+    /* The figure; NaN where there is nothing to measure. Arguments in the order of `option`. */
+    bool (*measure)(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                    struct solver_error *error);
+};
+
+/* All of them; ends with a NULL name. */
+const struct verify_measure *verify_measures(void);
+/* NULL if there is none of that name. */
+const struct verify_measure *verify_measure_find(const char *name);
+/* "of = { t [s], X0 [m], X1 [m] }" */
+const char *verify_option_spelling(enum verify_option kind);
+
+/* The functions of the table. */
+bool verify_stress_ratio(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                         struct solver_error *error);
+bool verify_stress_ahead(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                         struct solver_error *error);
+bool verify_period(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                   struct solver_error *error);
+
+/* Period [s] of u(t) = a + exp(-d t) (b cos w t + c sin w t), fitted by least squares to `count` rows; NaN where fewer
+ * than one and a half periods are there, or such a motion explains less than half of what is there. */
+double verify_period_fit(size_t count, const double *time, const double *displacement);
+/* The peak of the stress within [from, to]: the value of largest magnitude, with its sign, of the parabola through the
+ * particle that has it and its two neighbours. NaN if there is none within: the largest lies at an end. */
+double verify_peak(size_t count, const struct verify_point *point, double from, double to);
+
+#endif
