@@ -3,7 +3,9 @@
 #define SOLVER_CLOUD_H
 
 #include "solver/error.h"
+#include "solver/shape.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -14,35 +16,52 @@ struct solver_face_point {
     double area[3]; /* outward area vector [m^2; m in 2D; 1 in 1D] */
 };
 
+/* Bits of a tag, of the first of six faces. Particles lie on faces, or all in the centres of cells. */
+enum {
+    SOLVER_ON_FACE = 0,
+    SOLVER_NEXT_TO_FACE = 8,
+    SOLVER_BEYOND_FACE = 16, /* particles of a wall */
+    SOLVER_FACE_BITS = 0x3f
+};
+
 struct solver_cloud {
     int dim;
-    size_t count;   /* particles, ordered along a space-filling curve */
-    double spacing; /* [m] */
-    double *X;      /* [count][dim] [m] */
-    double *V;      /* [count] [m^dim]; sums to the body's volume, first moments exact */
-    uint32_t *tags; /* [count]; bit f: lies on face f */
-    uint32_t *body; /* [count] which body; NULL: there is one */
-    size_t face_point_count;
+    size_t count;            /* particles, ordered along a space-filling curve; those of walls come after the others */
+    size_t wall_count;       /* of walls: outside the body, with volumes of their own, only there to hold or move it */
+    double spacing;          /* [m] */
+    double *X;               /* [count][dim] [m] */
+    double *V;               /* [count] [m^dim]; sums to the body's volume, first moments exact */
+    uint32_t *tags;          /* [count]; bit f of each of the above: lies on face f, next to it, or beyond it */
+    uint32_t *body;          /* [count] which body; NULL: there is one */
+    size_t face_point_count; /* 0 where no particle lies on a face */
     struct solver_face_point *face_point; /* [face_point_count] */
-    uint32_t points[3];                   /* particles along each axis of the lattice */
-    uint32_t *site;                       /* [count][dim] lattice indices of each particle */
+    uint32_t points[3];                   /* particles along each axis of the lattice, with walls; 0: no lattice */
+    uint32_t *site;                       /* [count][dim] lattice indices of each particle; NULL: no lattice */
     size_t cell_count;
     uint32_t *cell; /* [cell_count][2^dim] particles of each lattice cell, in VTK's order for
-                       line, quad and hexahedron: for pictures and files only */
+                       line, quad and hexahedron (triangles are quads that name a particle twice): for pictures and
+                       files only; none of walls */
 };
 
 struct solver_box {
     int dim;
     double lower[3], upper[3]; /* [m] */
     double spacing;            /* [m]; every edge must be a whole number of spacings */
-    double perturb;            /* interior particles move by up to this fraction of the spacing along each axis */
+    double perturb;            /* particles not on a face move by up to this fraction of the spacing along each axis */
     uint64_t seed;
+    bool centred;     /* particles in the centres of cells, none on a face */
+    uint32_t wall[6]; /* layers of particles beyond each face; only where particles are in the centres of cells */
 };
 
-/* A box lattice with particles on its boundary. Volumes and areas are those of the trapezoidal rule; where the
- * lattice is perturbed the volumes are corrected so that zeroth and first moments stay exact (NUMERICS: the
+/* A box lattice with particles on its boundary: volumes and areas are those of the trapezoidal rule. Or with particles
+ * in the centres of cells: each has its cell's volume, and there are no face points; walls continue the lattice. Where
+ * the lattice is perturbed the volumes are corrected so that zeroth and first moments stay exact (NUMERICS: the
  * constraints of a closed stencil are compatible only then). */
 bool solver_cloud_box(const struct solver_box *box, struct solver_cloud **cloud, struct solver_error *error);
+/* Several bodies, in the order of their shapes; all with particles in the centres of cells and without walls, ordered
+ * together along one curve. SOLVER_BAD_INPUT where a shape is not a whole number of spacings thick, or two overlap. */
+bool solver_cloud_bodies(int dim, const struct solver_shape *shape, size_t shape_count, double spacing,
+                         struct solver_cloud **cloud, struct solver_error *error);
 void solver_cloud_free(struct solver_cloud *cloud);
 
 #endif

@@ -31,8 +31,8 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
     const struct solver_cloud *cloud = body->cloud;
     unsigned dim = (unsigned)cloud->dim;
     *faces = (struct solver_faces){.dim = cloud->dim, .body_force = solver_scene_has(scene, SOLVER_BODY_FORCE)};
-    if (!solver_alloc((void **)&faces->constraint, geometry->face_point_count, sizeof *faces->constraint, "constraints",
-                      error) ||
+    size_t most = geometry->face_point_count + cloud->wall_count;
+    if (!solver_alloc((void **)&faces->constraint, most, sizeof *faces->constraint, "constraints", error) ||
         !solver_alloc((void **)&faces->load, geometry->face_point_count, sizeof *faces->load, "loads", error)) {
         return false;
     }
@@ -42,7 +42,8 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
         int motion = -1;
         bool clamped = false;
         for (unsigned face = 0; face < 2 * dim; face++) {
-            if ((cloud->tags[a] >> face & 1U) == 0) {
+            uint32_t bits = cloud->tags[a] >> SOLVER_ON_FACE | cloud->tags[a] >> SOLVER_BEYOND_FACE;
+            if ((bits >> face & 1U) == 0) {
                 continue;
             }
             axes |= constrained_axes(scene->face[face], face / 2, dim);

@@ -1,4 +1,5 @@
-/* Boundary conditions: constraints on the velocity of particles, and loads. */
+/* Boundary conditions: constraints on the velocity of particles, and loads. What holds or moves a face acts on the
+ * particles that lie on it, or on those of the wall beyond it. */
 #ifndef SOLVER_FACES_H
 #define SOLVER_FACES_H
 
