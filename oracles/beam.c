@@ -166,10 +166,30 @@ double oracle_beam_deflection(const struct oracle_beam_mode *mode, double x)
            mode->cosine * cos(phase) + mode->sine * sin(phase);
 }
 
-double oracle_beam_rotation(const struct oracle_beam_mode *mode, double x)
+/* Derivative of the rotation, `order` times along x. */
+static double rotation(const struct oracle_beam_mode *mode, double x, int order)
 {
     double xi = x / mode->length, phase = mode->wave * xi;
-    double even = mode->grow * exp(mode->growth * (xi - 1)) - mode->decay * exp(-mode->growth * xi);
-    double odd = mode->sine * cos(phase) - mode->cosine * sin(phase);
-    return (mode->growth_slope * even + mode->wave_slope * odd) / mode->length;
+    double rising = mode->grow * exp(mode->growth * (xi - 1)), falling = mode->decay * exp(-mode->growth * xi);
+    double s = sin(phase), c = cos(phase), waving = mode->sine * c - mode->cosine * s;
+    double even = order % 2 == 0 ? rising - falling : rising + falling;
+    double odd = order == 0 ? waving : order == 1 ? -mode->sine * s - mode->cosine * c : -waving;
+    return (mode->growth_slope * pow(mode->growth / mode->length, order) * even +
+            mode->wave_slope * pow(mode->wave / mode->length, order) * odd) /
+           mode->length;
+}
+
+double oracle_beam_rotation(const struct oracle_beam_mode *mode, double x)
+{
+    return rotation(mode, x, 0);
+}
+
+double oracle_beam_curvature(const struct oracle_beam_mode *mode, double x)
+{
+    return rotation(mode, x, 1);
+}
+
+double oracle_beam_curvature_slope(const struct oracle_beam_mode *mode, double x)
+{
+    return rotation(mode, x, 2);
 }

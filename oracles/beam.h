@@ -40,5 +40,8 @@ bool oracle_beam_timoshenko(const struct oracle_beam *beam, int mode, struct ora
  * slope of the deflection only in a thin plate. */
 double oracle_beam_deflection(const struct oracle_beam_mode *mode, double x);
 double oracle_beam_rotation(const struct oracle_beam_mode *mode, double x);
+/* The curvature, by which the bending moment goes: first derivative of the rotation [1/m^2]; and the second [1/m^3]. */
+double oracle_beam_curvature(const struct oracle_beam_mode *mode, double x);
+double oracle_beam_curvature_slope(const struct oracle_beam_mode *mode, double x);
 
 #endif

@@ -5,15 +5,14 @@
  * low. So what is differentiated lies two heights from the clamp and one from the free end, or further. What remains
  * there, and between two meshes of other grading and degrees, is RITZ at most: for the source's plate 4e-8. */
 #include "oracles/cantilever.h"
-#include "oracles/self_check_parts.h"
+#include "oracles/plate_check.h"
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 static const double PI = 3.14159265358979323846;
 
-enum { SAMPLES = 64, FACE_SAMPLES = 32, TIMES = 8 };
+enum { SAMPLES = 64, FACE_SAMPLES = 32 };
 static const double RITZ = 5e-7;
 static const double REACH = 0.8; /* of the height: what is looked at on the free end, away from its corners */
 
@@ -110,23 +109,6 @@ static void differentials(struct self_check *check)
     self_check_line(check, "mirror image", mirrored, local);
 }
 
-/* At t = 0: nothing is bent, and the middle of the free end has its velocity. */
-static void starts(struct self_check *check)
-{
-    const struct plate *g = &check->oracle->given;
-    double moved = 0, tip[3] = {g->length, 0, 0};
-    struct oracle_state state;
-    for (size_t i = 0; i < SAMPLES; i++) {
-        struct self_check_spot spot = self_check_sample_at(check, i, 0);
-        check->kind->state(check->oracle, spot.X, 0, &state);
-        self_check_largest(&moved, state.u, 3);
-    }
-    check->kind->state(check->oracle, tip, 0, &state);
-    self_check_line(check, "initial displacement", self_check_relative(moved, check->of.u), 16 * DBL_EPSILON);
-    self_check_line(check, "initial velocity of the tip",
-                    self_check_relative(fabs(state.v[1] - g->tip_velocity), check->of.v), 16 * DBL_EPSILON);
-}
-
 /* Point i of a face of the body; of the faces along X where it is differentiated. */
 static void face_point(const struct self_check *check, size_t i, int axis, double at, double X[3], double *t)
 {
@@ -181,36 +163,11 @@ static void second(const struct self_check *check, const double X[3], double t, 
     hooke(check, G, state->P);
 }
 
-static void compare(struct self_check *check)
-{
-    struct self_check_distance u = {0}, v = {0}, p = {0}, F = {0}, P = {0};
-    for (size_t i = 0; i < SAMPLES; i++) {
-        struct oracle_state state, other;
-        struct self_check_spot spot = self_check_sample(check, i, 0);
-        check->kind->state(check->oracle, spot.X, spot.t, &state);
-        second(check, spot.X, spot.t, &other);
-        self_check_measure(&u, state.u, other.u, 3);
-        self_check_measure(&v, state.v, other.v, 3);
-        self_check_measure(&p, state.p, other.p, 3);
-        self_check_measure(&F, state.F, other.F, 9);
-        self_check_measure(&P, state.P, other.P, 9);
-    }
-    self_check_line(check, "second evaluation: u", self_check_relative(u.error, check->of.u), RITZ);
-    self_check_line(check, "second evaluation: v", self_check_relative(v.error, check->of.v), RITZ);
-    self_check_line(check, "second evaluation: p", self_check_relative(p.error, check->rho * check->of.v), RITZ);
-    self_check_line(check, "second evaluation: F", F.error / self_check_gradient_scale(check, RITZ), RITZ);
-    self_check_line(check, "second evaluation: P", self_check_relative(P.error, check->of.stress), RITZ);
-}
-
-struct energies {
-    double kinetic, strain;
-};
-
 /* p.v/2, and dev(P):dev(P)/(4 mu) + tr(P)^2/(18 K): per volume [J/m^3]. */
-static struct energies density(const struct self_check *check, const double X[3], double t)
+static struct plate_energies density(const struct self_check *check, const double X[3], double t)
 {
     struct oracle_state s;
-    struct energies e = {0};
+    struct plate_energies e = {0};
     check->kind->state(check->oracle, X, t, &s);
     double trace = s.P[0] + s.P[4] + s.P[8];
     for (int i = 0; i < 9; i++) {
@@ -225,47 +182,24 @@ static struct energies density(const struct self_check *check, const double X[3]
 }
 
 /* Over the upper half, which a line of its own shows to be the mirror image of the lower, element by element. */
-static struct energies quadrature(const struct self_check *check, double t)
+static struct plate_energies quadrature(const struct self_check *check, double t)
 {
     const struct axis *x = &check->oracle->solution.mode.x, *y = &check->oracle->solution.mode.y;
     double half = check->oracle->given.height / 2;
-    struct energies sum = {0};
+    struct plate_energies sum = {0};
     for (int cell = 0; cell < x->elements * y->elements; cell++) {
         const double *a = &x->node[cell / y->elements], *b = &y->node[cell % y->elements];
         for (int n = 0; n < SELF_CHECK_NODES * SELF_CHECK_NODES; n++) {
             double along, across;
             double X[3] = {half * (a[0] + (a[1] - a[0]) * (1 + self_check_node(n / SELF_CHECK_NODES, &along)) / 2),
                            half * (b[0] + (b[1] - b[0]) * (1 + self_check_node(n % SELF_CHECK_NODES, &across)) / 2), 0};
-            struct energies e = density(check, X, t);
+            struct plate_energies e = density(check, X, t);
             double weight = 2 * half * half * (a[1] - a[0]) / 2 * along * (b[1] - b[0]) / 2 * across;
             sum.kinetic += weight * e.kinetic;
             sum.strain += weight * e.strain;
         }
     }
     return sum;
-}
-
-/* An eighth of a period after the start both energies of a mode are equal: that is Rayleigh's quotient. */
-static void energies(struct self_check *check)
-{
-    double eighth = PI / (4 * check->oracle->frequency);
-    struct self_check_distance total = {0};
-    struct energies first, given, summed = quadrature(check, eighth);
-    check->kind->energy(check->oracle, 0, &first.kinetic, &first.strain);
-    double whole = first.kinetic + first.strain;
-    for (size_t i = 0; i < TIMES; i++) {
-        check->kind->energy(check->oracle, self_check_sequence(i, 3) * check->t_end, &given.kinetic, &given.strain);
-        double sum = given.kinetic + given.strain;
-        self_check_measure(&total, &sum, &whole, 1);
-    }
-    check->kind->energy(check->oracle, eighth, &given.kinetic, &given.strain);
-    self_check_line(check, "total energy constant", self_check_relative(total.error, whole), 64 * DBL_EPSILON);
-    self_check_line(check, "kinetic energy = quadrature",
-                    self_check_relative(fabs(given.kinetic - summed.kinetic), whole), RITZ / 4);
-    self_check_line(check, "strain energy = quadrature", self_check_relative(fabs(given.strain - summed.strain), whole),
-                    RITZ / 2);
-    self_check_line(check, "Rayleigh quotient = frequency^2",
-                    self_check_relative(fabs(summed.strain - summed.kinetic), summed.kinetic), RITZ);
 }
 
 size_t cantilever_check(const struct oracle_kind *kind, const struct oracle *oracle, struct oracle_check *line,
@@ -287,9 +221,9 @@ size_t cantilever_check(const struct oracle_kind *kind, const struct oracle *ora
                                .line = line,
                                .size = size};
     differentials(&check);
-    starts(&check);
+    plate_check_starts(&check, g);
     faces(&check);
-    compare(&check);
-    energies(&check);
+    self_check_compare(&check, second, RITZ);
+    plate_check_energies(&check, quadrature, RITZ / 4);
     return check.count;
 }

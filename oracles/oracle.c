@@ -11,7 +11,8 @@
     ENTRY(oracle_cantilever)                                                                                           \
     ENTRY(oracle_cantilever_plane_stress)                                                                              \
     ENTRY(oracle_rod_impact)                                                                                           \
-    ENTRY(oracle_swinging_cube)
+    ENTRY(oracle_swinging_cube)                                                                                        \
+    ENTRY(oracle_thin_plate)
 
 #define DECLARE(kind) extern const struct oracle_kind kind;
 #define ADDRESS(kind) &kind,

@@ -57,9 +57,9 @@ void self_check_starts(struct self_check *check, self_check_initial *initial);
 /* One face of the box: `held` components of the displacement are zero, and of the traction those that are not. */
 void self_check_face(struct self_check *check, int axis, bool upper, const bool held[3]);
 
-/* Every field against a second evaluation that shares no formula with the first. */
-typedef void self_check_second(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state);
-void self_check_compare(struct self_check *check, self_check_second *second);
+/* Every field against a second evaluation that shares no formula with the first, to within a relative bound. */
+typedef void self_check_second(const struct self_check *check, const double X[3], double t, struct oracle_state *state);
+void self_check_compare(struct self_check *check, self_check_second *second, double bound);
 
 /* Kinetic and strain energy against Gauss quadrature of p.v/2 and of the complementary energy of P (e as P has it, with
  * no unit matrix to subtract), and their sum from t_free on against its first value: nothing feeds or drains the body.

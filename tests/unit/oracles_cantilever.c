@@ -2,63 +2,30 @@
  * singularities; its modes against one another; and what its self-check and its creation refuse. */
 #include "oracles/beam.h"
 #include "oracles/cantilever.h"
+#include "tests/unit/one_oracle.h"
 #include "tests/unit/plane_elements.h"
-#include "tests/unit/unit.h"
 
 #include <gsl/gsl_integration.h>
-#include <stdio.h>
-#include <string.h>
 
-enum { LENGTH, HEIGHT, MODE, TIP, YOUNG, POISSON, DENSITY, PARAMETERS };
-
-static const double paper[PARAMETERS] = {0.2, 0.02, 1, 0.57008771254957, 1998447.2049689441, 0.39751552795031056, 1000};
+static const double E = 1998447.2049689441, NU = 0.39751552795031056;
 
 static const struct oracle_kind *the_kind(void)
 {
-    const struct oracle_kind *kind = oracle_find("cantilever");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(kind);
-    return kind;
+    return kind_called("cantilever");
 }
 
-/* Half as long, for what any length would do for, and takes less time. */
-static const double shorter[PARAMETERS] = {0.1, 0.02, 1, 0.57008771254957, 1998447.2049689441, 0.39751552795031056,
-                                           1000};
-
-/* The one given, but for one parameter. */
-static struct oracle *create_with(const double given[PARAMETERS], int parameter, double value)
+static const struct oracle_kind *in_plane_stress(void)
 {
-    double values[PARAMETERS];
-    struct oracle *oracle = NULL;
-    char why[ORACLE_WHY] = "";
-    memcpy(values, given, sizeof values);
-    values[parameter] = value;
-    bool created = oracle_create(the_kind(), values, &oracle, why);
-    if (!created) {
-        printf("%s\n", why);
-    }
-    CU_ASSERT_TRUE_FATAL(created);
-    return oracle;
+    return kind_called("cantilever-plane-stress");
 }
 
-static double figure(const struct oracle *oracle, const char *name)
-{
-    struct oracle_figure figures[ORACLE_FIGURES];
-    size_t count = the_kind()->figures(oracle, figures);
-    for (size_t i = 0; i < count; i++) {
-        if (strcmp(figures[i].name, name) == 0) {
-            return figures[i].value;
-        }
-    }
-    CU_FAIL_FATAL("no such figure");
-    return NAN;
-}
+/* Half as long as the source's, for what any length would do for, and takes less time. */
+static const struct setting shorter[SETTINGS] = {{"L", 0.1}};
 
 /* Frequencies of finite elements are upper bounds that fall towards the oracle's, which their extrapolation meets. */
 static void agrees_with_elements_in(const struct oracle_kind *kind, double lambda)
 {
-    struct oracle *o = NULL;
-    char why[ORACLE_WHY] = "";
-    CU_ASSERT_TRUE_FATAL(oracle_create(kind, paper, &o, why));
+    struct oracle *o = create_with(kind, NULL);
     struct plane_body body = {0.2, 0.02, lambda, 7.15e5, 1000};
     double w[3];
     for (int i = 0; i < 3; i++) {
@@ -73,9 +40,8 @@ static void agrees_with_elements_in(const struct oracle_kind *kind, double lambd
 
 static void agrees_with_finite_elements(void)
 {
-    double nu = paper[POISSON];
     agrees_with_elements_in(the_kind(), 3.25e6 - 2 * 7.15e5 / 3);
-    agrees_with_elements_in(oracle_find("cantilever-plane-stress"), paper[YOUNG] * nu / (1 - nu * nu));
+    agrees_with_elements_in(in_plane_stress(), E * NU / (1 - NU * NU));
 }
 
 /* Without Poisson's effect the clamp bends nothing but what a beam's does: Timoshenko's period is right but for the
@@ -84,14 +50,9 @@ static void meets_timoshenko_without_poisson_effect(void)
 {
     double distance[2];
     for (int i = 0; i < 2; i++) {
-        double values[PARAMETERS];
-        struct oracle *o = NULL;
-        char why[ORACLE_WHY] = "";
-        memcpy(values, paper, sizeof values);
-        values[POISSON] = 0;
-        values[LENGTH] = i == 0 ? 0.2 : 0.4;
-        CU_ASSERT_TRUE_FATAL(oracle_create(the_kind(), values, &o, why));
-        distance[i] = figure(o, "error of Timoshenko theory");
+        const struct setting set[SETTINGS] = {{"material.nu", 0}, {"L", i == 0 ? 0.2 : 0.4}};
+        struct oracle *o = create_with(the_kind(), set);
+        distance[i] = figure_of(the_kind(), o, "error of Timoshenko theory");
         the_kind()->destroy(o);
     }
     CU_ASSERT_TRUE(distance[0] > 0 && distance[0] < 1.2e-5);
@@ -135,7 +96,7 @@ static void converges_as_the_corner_singularity_says(void)
 /* As many digits as it says: other elements, extrapolated on their own, give the same. */
 static void is_as_certain_as_it_says(void)
 {
-    struct oracle *o = create_with(paper, MODE, 1);
+    struct oracle *o = create_with(the_kind(), NULL);
     struct ritz_problem problem = {.length = 20, .lambda = o->lambda / o->mu, .mode = 1};
     struct ritz_mesh mesh = {.layers = 5, .tip_layers = 3, .grading = 0.18, .growth = 1.7, .corner = 6, .middle = 11};
     struct ritz_limit limit;
@@ -144,8 +105,8 @@ static void is_as_certain_as_it_says(void)
     double distance = fabs(limit.frequency / o->solution.frequency - 1);
     CU_ASSERT_TRUE(o->solution.uncertainty < 1e-8);
     CU_ASSERT_TRUE(distance < o->solution.uncertainty && distance < 1e-9);
-    CU_ASSERT_DOUBLE_EQUAL(figure(o, "period"), 0.2553288117, 1e-9);
-    CU_ASSERT_DOUBLE_EQUAL(figure(o, "thin-plate period"), 0.254129, 5e-7);
+    CU_ASSERT_DOUBLE_EQUAL(figure_of(the_kind(), o, "period"), 0.2553288117, 1e-9);
+    CU_ASSERT_DOUBLE_EQUAL(figure_of(the_kind(), o, "thin-plate period"), 0.254129, 5e-7);
     ritz_free(&limit.mode);
     the_kind()->destroy(o);
 }
@@ -154,17 +115,12 @@ static void is_as_certain_as_it_says(void)
  */
 static void tends_to_the_beam_in_plane_stress(void)
 {
-    const struct oracle_kind *kind = oracle_find("cantilever-plane-stress");
+    const struct oracle_kind *kind = in_plane_stress();
     double error[2];
     for (int i = 0; i < 2; i++) {
-        double values[PARAMETERS];
-        struct oracle *o = NULL;
-        char why[ORACLE_WHY] = "";
-        memcpy(values, paper, sizeof values);
-        values[POISSON] = 0.3;
-        values[LENGTH] = i == 0 ? 0.4 : 0.8;
-        CU_ASSERT_TRUE_FATAL(oracle_create(kind, values, &o, why));
-        error[i] = figure(o, "error of Timoshenko theory");
+        const struct setting set[SETTINGS] = {{"material.nu", 0.3}, {"L", i == 0 ? 0.4 : 0.8}};
+        struct oracle *o = create_with(kind, set);
+        error[i] = figure_of(kind, o, "error of Timoshenko theory");
         kind->destroy(o);
     }
     CU_ASSERT_TRUE(error[0] > 0 && error[0] < 6e-4);
@@ -174,16 +130,14 @@ static void tends_to_the_beam_in_plane_stress(void)
 /* Nothing holds the plate across: it gets thinner where it is stretched, and bears no stress there. */
 static void gets_thinner_in_plane_stress(void)
 {
-    const struct oracle_kind *kind = oracle_find("cantilever-plane-stress");
-    struct oracle *o = NULL;
-    char why[ORACLE_WHY] = "";
-    CU_ASSERT_TRUE_FATAL(oracle_create(kind, shorter, &o, why));
+    const struct oracle_kind *kind = in_plane_stress();
+    struct oracle *o = create_with(kind, shorter);
     for (int i = 1; i < 8; i++) {
-        double X[3] = {0.1 * i / 8, 0.009, 0}, nu = paper[POISSON];
+        double X[3] = {0.1 * i / 8, 0.009, 0};
         struct oracle_state s;
         kind->state(o, X, 0.01, &s);
         CU_ASSERT_TRUE(s.P[0] < 0 && s.P[8] == 0 && s.F[8] > 1); /* bent upwards: pressed above */
-        CU_ASSERT_DOUBLE_EQUAL((s.F[8] - 1) * paper[YOUNG] / (-nu * (s.P[0] + s.P[4])), 1, 1e-10);
+        CU_ASSERT_DOUBLE_EQUAL((s.F[8] - 1) * E / (-NU * (s.P[0] + s.P[4])), 1, 1e-10);
     }
     kind->destroy(o);
 }
@@ -220,7 +174,7 @@ static void modes_are_what_their_numbers_say(void)
     for (int n = 0; n < 3; n++) {
         int crossings = 0;
         double last = 0, energy[2];
-        mode[n] = create_with(shorter, MODE, n + 1);
+        mode[n] = create_with(the_kind(), (const struct setting[SETTINGS]){{"L", 0.1}, {"mode", n + 1}});
         for (int i = 20; i <= 100; i++) {
             struct oracle_state s;
             double X[3] = {0.1 * i / 100, 0, 0};
@@ -267,15 +221,18 @@ static bool caught(const struct oracle *oracle)
 
 static void another_problem_is_caught(void)
 {
-    struct oracle *o = create_with(shorter, MODE, 1);
+    struct oracle *o = create_with(the_kind(), shorter);
     now.other = NULL;
     now.clock = 0;
     CU_ASSERT_FALSE(caught(o)); /* going through the copy is no fault */
     now.clock = 1e-6;
     CU_ASSERT_TRUE(caught(o));
     now.clock = 0;
-    for (int i = 0; i < PARAMETERS; i++) {
-        struct oracle *other = create_with(shorter, i, i == MODE ? 2 : shorter[i] * (1 + 1e-5));
+    for (const struct oracle_parameter *p = the_kind()->parameter; p->name != NULL; p++) {
+        double typical = strcmp(p->name, "L") == 0 ? 0.1 : p->typical;
+        double wrong = strcmp(p->name, "mode") == 0 ? 2 : typical * (1 + 1e-5);
+        const struct setting set[SETTINGS] = {{p->name, wrong}, {typical == 0.1 ? NULL : "L", 0.1}};
+        struct oracle *other = create_with(the_kind(), set);
         now.other = other;
         CU_ASSERT_TRUE(caught(o));
         the_kind()->destroy(other);
@@ -283,52 +240,35 @@ static void another_problem_is_caught(void)
     the_kind()->destroy(o);
 }
 
-/* Each passes its own check. */
 static void holds_at_the_ends_of_its_parameters(void)
 {
-    static const double value[][PARAMETERS] = {
-        {0.08, 0.02, 1, 1, 2e6, 0.49, 1000},    {0.08, 0.02, 4, 1, 2e6, 0.49, 1000},
-        {1, 0.02, 1, 1, 2e6, 0.49, 1000},       {0.2, 0.02, 1, 0, 2e6, -0.9, 1000},
-        {2e5, 5e4, 1, 1e-30, 1e40, 0.3, 1e-10}, {2e-7, 5e-8, 1, -1e10, 1e-9, 0, 1e9}};
-    for (size_t i = 0; i < sizeof value / sizeof *value; i++) {
-        struct oracle *oracle = NULL;
-        struct oracle_check line[ORACLE_LAWS];
-        char why[ORACLE_WHY] = "";
-        size_t count = 0;
-        CU_ASSERT_TRUE_FATAL(oracle_create(the_kind(), value[i], &oracle, why));
-        CU_ASSERT_TRUE(oracle_self_check(the_kind(), oracle, line, &count));
-        for (size_t j = 0; j < count; j++) {
-            if (!oracle_law_holds(&line[j])) {
-                printf("set %zu, %s: %.3g > %.3g\n", i, line[j].law, line[j].residual, line[j].bound);
-            }
-        }
-        the_kind()->destroy(oracle);
-    }
+    const struct setting set[][SETTINGS] = {
+        {{"L", 0.08}, {"material.nu", 0.49}},
+        {{"L", 0.08}, {"material.nu", 0.49}, {"mode", 4}},
+        {{"L", 1}, {"material.nu", 0.49}},
+        {{"v_tip", 0}, {"material.nu", -0.9}},
+        {{"L", 2e5}, {"H", 5e4}, {"v_tip", 1e-30}, {"material.E", 1e40}, {"material.rho", 1e-10}},
+        {{"L", 2e-7}, {"H", 5e-8}, {"v_tip", -1e10}, {"material.E", 1e-9}, {"material.nu", 0}, {"material.rho", 1e9}},
+    };
+    holds_with_each(the_kind(), set, sizeof set / sizeof *set);
+    holds_with_each(in_plane_stress(), set, sizeof set / sizeof *set);
 }
 
 static void refuses_what_it_cannot_answer(void)
 {
     static const struct {
-        int parameter;
-        double value;
+        struct setting set[SETTINGS];
         const char *says;
-    } wrong[] = {{LENGTH, 0.07, "4 to 50 times; L = 0.2 would do"},
-                 {LENGTH, 1.1, "55 times"},
-                 {HEIGHT, 1e-300, "4 to 50 times"},
-                 {MODE, 1.5, "a whole number"},
-                 {MODE, 5, "<= 4"},
-                 {POISSON, 0.5, "<= 0.49"},
-                 {TIP, 1e200, "range of double precision"},
-                 {YOUNG, 1e307, "range of double precision"}};
+    } wrong[] = {{{{"L", 0.07}}, "4 to 50 times; L = 0.2 would do"},
+                 {{{"L", 1.1}}, "55 times"},
+                 {{{"H", 1e-300}}, "4 to 50 times"},
+                 {{{"mode", 1.5}}, "a whole number"},
+                 {{{"mode", 5}}, "<= 4"},
+                 {{{"material.nu", 0.5}}, "<= 0.49"},
+                 {{{"L", 0.1}, {"v_tip", 1e200}}, "range of double precision"},
+                 {{{"L", 0.1}, {"material.E", 1e307}}, "range of double precision"}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        double values[PARAMETERS];
-        char why[ORACLE_WHY] = "";
-        struct oracle *oracle = (struct oracle *)1;
-        memcpy(values, shorter, sizeof values);
-        values[wrong[i].parameter] = wrong[i].value;
-        CU_ASSERT_FALSE_FATAL(oracle_create(the_kind(), values, &oracle, why));
-        CU_ASSERT_PTR_NULL(oracle);
-        CU_ASSERT_PTR_NOT_NULL(strstr(why, wrong[i].says));
+        refuses(the_kind(), wrong[i].set, wrong[i].says);
     }
 }
 
