@@ -10,43 +10,11 @@
 
 enum { A, B, C, U0, YOUNG, POISSON, DENSITY, PARAMETERS };
 
-typedef void spoil_state(const double X[3], double t, double d, struct oracle_state *s);
-struct energies {
-    double kinetic, strain;
-};
-typedef void spoil_energy(double d, struct energies *e);
-
-/* The true kind, the oracle checked, one of each wave alone, and what is spoiled by how much. */
+/* Beside the oracle checked, one of each wave alone. */
 static struct {
-    const struct oracle_kind *kind;
     double value[PARAMETERS];
-    struct oracle *whole, *p_wave, *s_wave, *other;
-    spoil_state *state;
-    spoil_energy *energy;
-    double d;
-} now;
-
-static void true_state(const double X[3], double t, struct oracle_state *s)
-{
-    now.kind->state(now.whole, X, t, s);
-}
-
-static void spoiled_state(const struct oracle *oracle, const double X[3], double t, struct oracle_state *s)
-{
-    (void)oracle;
-    now.state != NULL ? now.state(X, t, now.d, s) : true_state(X, t, s);
-}
-
-static void spoiled_energy(const struct oracle *oracle, double t, double *kinetic, double *strain)
-{
-    struct energies e;
-    now.kind->energy(oracle, t, &e.kinetic, &e.strain);
-    if (now.energy != NULL) {
-        now.energy(now.d, &e);
-    }
-    *kinetic = e.kinetic;
-    *strain = e.strain;
-}
+    struct oracle *p_wave, *s_wave;
+} part;
 
 static struct oracle *create(const double value[PARAMETERS])
 {
@@ -59,36 +27,26 @@ static struct oracle *create(const double value[PARAMETERS])
 static void begin(double a, double b, double c)
 {
     const double value[PARAMETERS] = {a, b, c, 5e-4, 17e6, 0.3, 1100};
-    double part[PARAMETERS], m = (a + b + c) / 3;
+    double alone[PARAMETERS], m = (a + b + c) / 3;
     memset(&now, 0, sizeof now);
     now.kind = oracle_find("swinging-cube");
     CU_ASSERT_PTR_NOT_NULL_FATAL(now.kind);
-    memcpy(now.value, value, sizeof value);
-    memcpy(part, value, sizeof value);
+    memcpy(part.value, value, sizeof value);
+    memcpy(alone, value, sizeof value);
     now.whole = create(value);
-    part[A] = part[B] = part[C] = m;
-    now.p_wave = create(part);
-    part[A] = a - m;
-    part[B] = b - m;
-    part[C] = c - m;
-    now.s_wave = create(part);
+    alone[A] = alone[B] = alone[C] = m;
+    part.p_wave = create(alone);
+    alone[A] = a - m;
+    alone[B] = b - m;
+    alone[C] = c - m;
+    part.s_wave = create(alone);
 }
 
 static void end(void)
 {
     now.kind->destroy(now.whole);
-    now.kind->destroy(now.p_wave);
-    now.kind->destroy(now.s_wave);
-}
-
-static bool caught(void)
-{
-    struct oracle_kind spoiled = *now.kind;
-    struct oracle_check line[ORACLE_LAWS];
-    size_t count = 0;
-    spoiled.state = spoiled_state;
-    spoiled.energy = spoiled_energy;
-    return !oracle_self_check(&spoiled, now.whole, line, &count);
+    now.kind->destroy(part.p_wave);
+    now.kind->destroy(part.s_wave);
 }
 
 static void wave_number(const double X[3], double t, double d, struct oracle_state *s)
@@ -103,8 +61,8 @@ static void wave_number(const double X[3], double t, double d, struct oracle_sta
 static void two_clocks(const double X[3], double t, double p_clock, double s_clock, struct oracle_state *s)
 {
     struct oracle_state shear;
-    now.kind->state(now.p_wave, X, t * p_clock, s);
-    now.kind->state(now.s_wave, X, t * s_clock, &shear);
+    now.kind->state(part.p_wave, X, t * p_clock, s);
+    now.kind->state(part.s_wave, X, t * s_clock, &shear);
     for (int i = 0; i < 3; i++) {
         s->u[i] += shear.u[i];
         s->v[i] = s->v[i] * p_clock + shear.v[i] * s_clock;
@@ -153,22 +111,6 @@ static void lame_mu(const double X[3], double t, double d, struct oracle_state *
     }
 }
 
-static void kinetic_energy(double d, struct energies *e)
-{
-    e->kinetic *= 1 + d;
-}
-
-static void strain_energy(double d, struct energies *e)
-{
-    e->strain *= 1 + d;
-}
-
-static void both_energies(double d, struct energies *e)
-{
-    e->kinetic *= 1 + d;
-    e->strain *= 1 + d;
-}
-
 static void exchanged_energy(double d, struct energies *e)
 {
     double shift = d * e->kinetic; /* the total stays right */
@@ -204,7 +146,7 @@ static const struct {
 static void small_changes_are_caught(void)
 {
     begin(1, -0.5, 0.25);
-    CU_ASSERT_FALSE(caught()); /* going through the copy is no fault */
+    CU_ASSERT_FALSE(caught(NULL)); /* going through the copy is no fault */
     printf("\n");
     for (size_t i = 0; i < sizeof mutations / sizeof *mutations; i++) {
         double smallest = INFINITY;
@@ -212,7 +154,7 @@ static void small_changes_are_caught(void)
         now.energy = mutations[i].energy;
         for (int exponent = -2; exponent >= -16; exponent--) {
             now.d = pow(10, exponent);
-            if (!caught()) {
+            if (!caught(NULL)) {
                 break;
             }
             smallest = now.d;
@@ -223,12 +165,6 @@ static void small_changes_are_caught(void)
     end();
 }
 
-static void other_oracle(const double X[3], double t, double d, struct oracle_state *s)
-{
-    (void)d;
-    now.kind->state(now.other, X, t, s);
-}
-
 /* Every parameter off in the fields alone: a solution without a flaw, but of another problem. */
 static void another_problem_is_caught(void)
 {
@@ -236,23 +172,17 @@ static void another_problem_is_caught(void)
     for (int i = 0; i < PARAMETERS; i++) {
         for (int sign = -1; sign <= 1; sign += 2) {
             double value[PARAMETERS];
-            memcpy(value, now.value, sizeof value);
+            memcpy(value, part.value, sizeof value);
             value[i] *= 1 + sign * 1e-9;
             now.other = create(value);
             now.state = other_oracle;
-            CU_ASSERT_TRUE(caught());
+            CU_ASSERT_TRUE(caught(NULL));
             now.kind->destroy(now.other);
         }
     }
     now.other = now.whole;
-    CU_ASSERT_FALSE(caught());
+    CU_ASSERT_FALSE(caught(NULL));
     end();
-}
-
-static void sign_of_v(const double X[3], double t, double d, struct oracle_state *s)
-{
-    (void)d;
-    velocity(X, t, -2, s);
 }
 
 static void sines_for_cosines(const double X[3], double t, double d, struct oracle_state *s)
@@ -281,15 +211,6 @@ static void sign_of_one_shear(const double X[3], double t, double d, struct orac
     s->P[7] = -s->P[7];
 }
 
-static void no_unit_matrix(const double X[3], double t, double d, struct oracle_state *s)
-{
-    (void)d;
-    true_state(X, t, s);
-    s->F[0] -= 1;
-    s->F[4] -= 1;
-    s->F[8] -= 1;
-}
-
 static void all_by_the_p_wave(const double X[3], double t, double d, struct oracle_state *s)
 {
     (void)d;
@@ -300,19 +221,6 @@ static void all_by_the_s_wave(const double X[3], double t, double d, struct orac
 {
     (void)d;
     two_clocks(X, t, 1 / 1.8708286933869707, 1, s);
-}
-
-static void frozen(const double X[3], double t, double d, struct oracle_state *s)
-{
-    (void)d, (void)t;
-    true_state(X, 0, s);
-}
-
-static void nothing(const double X[3], double t, double d, struct oracle_state *s)
-{
-    (void)d, (void)t, (void)X;
-    memset(s, 0, sizeof *s);
-    s->F[0] = s->F[4] = s->F[8] = 1;
 }
 
 static void nan_now_and_then(const double X[3], double t, double d, struct oracle_state *s)
@@ -332,12 +240,6 @@ static void swapped_energies(double d, struct energies *e)
     e->strain = k;
 }
 
-static void infinite_energy(double d, struct energies *e)
-{
-    (void)d;
-    e->kinetic = INFINITY;
-}
-
 static void wrong_formulas_are_caught(void)
 {
     static spoil_state *const states[] = {sign_of_v,      sines_for_cosines, transposed_gradient, sign_of_one_shear,
@@ -347,13 +249,13 @@ static void wrong_formulas_are_caught(void)
     begin(1, -0.5, 0.25);
     for (size_t i = 0; i < sizeof states / sizeof *states; i++) {
         now.state = states[i];
-        CU_ASSERT_TRUE(caught());
+        CU_ASSERT_TRUE(caught(NULL));
     }
     now.state = NULL;
-    CU_ASSERT_FALSE(caught());
+    CU_ASSERT_FALSE(caught(NULL));
     for (size_t i = 0; i < sizeof energies / sizeof *energies; i++) {
         now.energy = energies[i];
-        CU_ASSERT_TRUE(caught());
+        CU_ASSERT_TRUE(caught(NULL));
     }
     end();
 }
@@ -368,10 +270,10 @@ static void shifted(const double X[3], double t, double d, struct oracle_state *
 static void rest_is_not_beyond_reproach(void)
 {
     begin(0, 0, 0);
-    CU_ASSERT_FALSE(caught());
+    CU_ASSERT_FALSE(caught(NULL));
     now.d = 1e-300;
     now.state = shifted;
-    CU_ASSERT_TRUE(caught());
+    CU_ASSERT_TRUE(caught(NULL));
     end();
 }
 

@@ -1,11 +1,64 @@
-/* Faults of a state that any oracle could have, relative size d. Who includes this defines true_state: the state of the
- * oracle that is spoiled. */
+/* Oracles spoiled on purpose: the fields and energies of one go through functions that change them, and the self-check
+ * of the true kind must see it. Here stand the faults that any oracle could have, relative size d. */
 #ifndef TESTS_SPOILT_STATES_H
 #define TESTS_SPOILT_STATES_H
 
 #include "oracles/oracle.h"
 
-static void true_state(const double X[3], double t, struct oracle_state *s);
+#include <math.h>
+#include <string.h>
+
+typedef void spoil_state(const double X[3], double t, double d, struct oracle_state *s);
+struct energies {
+    double kinetic, strain;
+};
+typedef void spoil_energy(double d, struct energies *e);
+
+/* The true kind, the oracle checked, another one of the kind, and what is spoiled by how much. */
+static struct {
+    const struct oracle_kind *kind;
+    struct oracle *whole, *other;
+    spoil_state *state;
+    spoil_energy *energy;
+    double d;
+} now;
+
+static inline void true_state(const double X[3], double t, struct oracle_state *s)
+{
+    now.kind->state(now.whole, X, t, s);
+}
+
+static inline void spoiled_state(const struct oracle *oracle, const double X[3], double t, struct oracle_state *s)
+{
+    (void)oracle;
+    now.state != NULL ? now.state(X, t, now.d, s) : true_state(X, t, s);
+}
+
+static inline void spoiled_energy(const struct oracle *oracle, double t, double *kinetic, double *strain)
+{
+    struct energies e;
+    now.kind->energy(oracle, t, &e.kinetic, &e.strain);
+    if (now.energy != NULL) {
+        now.energy(now.d, &e);
+    }
+    *kinetic = e.kinetic;
+    *strain = e.strain;
+}
+
+/* Whether the self-check sees it; raises *loosest, unless NULL, to the largest of its bounds. */
+static inline bool caught(double *loosest)
+{
+    struct oracle_kind spoiled = *now.kind;
+    struct oracle_check line[ORACLE_LAWS];
+    size_t count = 0;
+    spoiled.state = spoiled_state;
+    spoiled.energy = spoiled_energy;
+    bool holds = oracle_self_check(&spoiled, now.whole, line, &count);
+    for (size_t i = 0; loosest != NULL && i < count; i++) {
+        *loosest = fmax(*loosest, line[i].bound);
+    }
+    return !holds;
+}
 
 static inline void scale(double *x, size_t count, double factor)
 {
@@ -59,6 +112,63 @@ static inline void amplitude(const double X[3], double t, double d, struct oracl
     scale(s->u, 3, 1 + d);
     scale_gradient(s->F, 1 + d);
     scale(s->P, 9, 1 + d);
+}
+
+/* Without a flaw, but of another problem. */
+static inline void other_oracle(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d;
+    now.kind->state(now.other, X, t, s);
+}
+
+static inline void sign_of_v(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d;
+    velocity(X, t, -2, s);
+}
+
+static inline void no_unit_matrix(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d;
+    true_state(X, t, s);
+    s->F[0] -= 1;
+    s->F[4] -= 1;
+    s->F[8] -= 1;
+}
+
+static inline void frozen(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d, (void)t;
+    true_state(X, 0, s);
+}
+
+static inline void nothing(const double X[3], double t, double d, struct oracle_state *s)
+{
+    (void)d, (void)t, (void)X;
+    memset(s, 0, sizeof *s);
+    s->F[0] = s->F[4] = s->F[8] = 1;
+}
+
+static inline void kinetic_energy(double d, struct energies *e)
+{
+    e->kinetic *= 1 + d;
+}
+
+static inline void strain_energy(double d, struct energies *e)
+{
+    e->strain *= 1 + d;
+}
+
+static inline void both_energies(double d, struct energies *e)
+{
+    e->kinetic *= 1 + d;
+    e->strain *= 1 + d;
+}
+
+static inline void infinite_energy(double d, struct energies *e)
+{
+    (void)d;
+    e->kinetic = INFINITY;
 }
 
 #endif
