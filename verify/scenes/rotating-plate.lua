@@ -12,7 +12,7 @@ levels = {25, 50} -- spacings of 4 and 2 cm
 
 scheme = "upwind" -- or "ulsph", the paper's updated-Lagrangian system
 if scheme == "ulsph" then
-    support, integrator, cfl = 2.4, "tvd-rk2", 0.5
+    support, integrator, cfl = 2.4, "tvd-rk2", 0.4
     material = { model = "linear-elastic", E = 17e6, nu = 0.45, rho = 1100 } -- Pa, -, kg/m^3; in rates
 else
     evolved, stencil, integrator, cfl = "pFHJ", "sbp2", "rk4", 0.5
