@@ -15,7 +15,9 @@
     ROW("F", "-", "deformation gradient less the identity, all components")                                            \
     ROW("sigma", "Pa", "Cauchy stress, normal components")                                                             \
     ROW("sigma_all", "Pa", "Cauchy stress, all components")
-#define OF_PROBES(ROW) ROW("probes", "m", "displacement at the probes over time, all components")
+#define OF_PROBES(ROW)                                                                                                 \
+    ROW("probes", "m", "displacement at the probes over time, all components")                                         \
+    ROW("probes_y", "m", "displacement along y at the probes over time")
 
 /* Norm by norm, in the order of keep() below. */
 #define NAMES(field, unit, meaning) field, field "_abs", field "_max", field "_abs_max", field "_l1",
@@ -26,17 +28,21 @@
 #define SNAPSHOT_NAMES(field, unit, meaning)    NAMES("snapshots_" field, unit, meaning)
 #define SNAPSHOT_MEANINGS(field, unit, meaning) MEANINGS(field, unit, meaning ", largest over the snapshots")
 
-static const char *const name_table[] = {OF_STATE(NAMES) OF_PROBES(NAMES) OF_STATE(SNAPSHOT_NAMES) "probes_nrmse"};
-static const char *const unit_table[] = {OF_STATE(UNITS) OF_PROBES(UNITS) OF_STATE(UNITS) "-"};
-static const char *const meaning_table[] = {OF_STATE(MEANINGS) OF_PROBES(MEANINGS) OF_STATE(
-    SNAPSHOT_MEANINGS) "root mean square error at the probes over the scene's probe_scale"};
+static const char *const name_table[] = {OF_STATE(NAMES) OF_PROBES(NAMES) OF_STATE(SNAPSHOT_NAMES) "probes_nrmse",
+                                         "probes_y_nrmse"};
+static const char *const unit_table[] = {OF_STATE(UNITS) OF_PROBES(UNITS) OF_STATE(UNITS) "-", "-"};
+static const char *const meaning_table[] = {
+    OF_STATE(MEANINGS) OF_PROBES(MEANINGS)
+        OF_STATE(SNAPSHOT_MEANINGS) "root mean square error at the probes over the scene's probe_scale",
+    "root mean square error along y at the probes over the scene's probe_scale"};
 _Static_assert(sizeof name_table == VERIFY_ERRORS * sizeof *name_table, "one name per error");
 _Static_assert(sizeof unit_table == VERIFY_ERRORS * sizeof *unit_table, "one unit per error");
 _Static_assert(sizeof meaning_table == VERIFY_ERRORS * sizeof *meaning_table, "one meaning per error");
 
-const char verify_error_names[] = "p, P, P_all, u, F, sigma, sigma_all, probes, each also with _abs, _max, _abs_max or "
-                                  "_l1, all but probes also with snapshots_ before "
-                                  "it, and probes_nrmse";
+const char verify_error_names[] =
+    "p, P, P_all, u, F, sigma, sigma_all, probes, probes_y, each also with _abs, _max, _abs_max or "
+    "_l1, all but those of probes also with snapshots_ before "
+    "it, probes_nrmse and probes_y_nrmse";
 
 /* Unlike fmax, keeps a NaN. */
 static double larger(double a, double b)
@@ -118,9 +124,11 @@ bool verify_error_applies(const struct solver_scene *scene, size_t error, const 
 {
     bool of_snapshots = error >= VERIFY_SNAPSHOT_ERRORS && error < VERIFY_PROBES_NRMSE;
     bool of_probes = !of_snapshots && error >= VERIFY_STATE_ERRORS;
+    bool along_y = error == VERIFY_PROBES_Y_NRMSE || field_of(error) == VERIFY_PROBES_Y;
     *lacks = of_snapshots && scene->snapshot_count == 0                  ? "snapshots"
              : of_probes && scene->probe_count == 0                      ? "probes"
-             : error == VERIFY_PROBES_NRMSE && !(scene->probe_scale > 0) ? "probe_scale"
+             : along_y && scene->dim < 2                                 ? "dim = 2 or 3, so that there is a y"
+             : error >= VERIFY_PROBES_NRMSE && !(scene->probe_scale > 0) ? "probe_scale"
              : !verify_error_known(scene, error)                         ? "scheme set to one that knows F and P"
                                                                          : NULL;
     return *lacks == NULL;
@@ -205,23 +213,28 @@ static void keep(double *error, enum verify_field field, struct verify_norms nor
     out[4] = norms.relative_l1;
 }
 
+/* Of `count` displacements [3] those along y, in place. */
+static void keep_y(size_t count, double *u)
+{
+    for (size_t i = 0; i < count; i++) {
+        u[i] = u[3 * i + 1];
+    }
+}
+
 /* Rows of the history times probes, each a point in time and place. */
 bool verify_norms_probes(const struct solver_history *history, const struct oracle_kind *kind,
                          const struct oracle *oracle, double scale, double error[VERIFY_ERRORS],
                          struct solver_error *why)
 {
+    const struct verify_norms unmeasured = {NAN, NAN, NAN, NAN, NAN};
     size_t count = history->count * history->probe_count;
-    error[VERIFY_PROBES_NRMSE] = NAN;
-    if (count == 0) {
-        keep(error, VERIFY_PROBES, (struct verify_norms){NAN, NAN, NAN, NAN, NAN});
-        return true;
-    }
-    double *exact = calloc(count, 4 * sizeof *exact);
+    struct verify_norms all = unmeasured, along_y = unmeasured;
+    double *exact = calloc(count + 1, 7 * sizeof *exact); /* one more, so that none is no failure */
     if (exact == NULL) {
         return solver_fail(why, SOLVER_NO_MEMORY, "no memory to compare %zu rows of history with the oracle",
                            history->count);
     }
-    double *weight = exact + 3 * count;
+    double *weight = exact + 3 * count, *computed = exact + 4 * count;
     for (size_t i = 0; i < count; i++) {
         struct oracle_state state;
         kind->state(oracle, history->probe_X[i % history->probe_count], history->totals[i / history->probe_count].time,
@@ -229,9 +242,17 @@ bool verify_norms_probes(const struct solver_history *history, const struct orac
         memcpy(exact + 3 * i, state.u, sizeof state.u);
         weight[i] = 1.0;
     }
-    struct verify_norms norms = verify_norms_field(count, 3, weight, history->probe_u, exact);
-    keep(error, VERIFY_PROBES, norms);
-    error[VERIFY_PROBES_NRMSE] = scale > 0 ? norms.absolute_l2 / scale : NAN;
+    if (count > 0) {
+        memcpy(computed, history->probe_u, 3 * count * sizeof *computed);
+        all = verify_norms_field(count, 3, weight, computed, exact);
+        keep_y(count, computed);
+        keep_y(count, exact);
+        along_y = verify_norms_field(count, 1, weight, computed, exact);
+    }
+    keep(error, VERIFY_PROBES, all);
+    keep(error, VERIFY_PROBES_Y, along_y);
+    error[VERIFY_PROBES_NRMSE] = scale > 0 ? all.absolute_l2 / scale : NAN;
+    error[VERIFY_PROBES_Y_NRMSE] = scale > 0 ? along_y.absolute_l2 / scale : NAN;
     free(exact);
     return true;
 }

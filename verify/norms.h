@@ -36,21 +36,24 @@ enum verify_field {
     VERIFY_F,     /* F - I, all components: the deviation, since |F| itself is 1 and hides it */
     VERIFY_SIGMA, /* normal components of the Cauchy stress */
     VERIFY_SIGMA_ALL,
-    VERIFY_PROBES, /* displacement at the probes, all components; sums over rows of the time history instead of
-                      particles, each with weight 1, so that "probes_abs" is the root mean square error over time */
+    VERIFY_PROBES,   /* displacement at the probes, all components; sums over rows of the time history instead of
+                        particles, each with weight 1, so that "probes_abs" is the root mean square error over time */
+    VERIFY_PROBES_Y, /* the same along y alone: a deflection */
     VERIFY_FIELDS,
     VERIFY_STATE_FIELDS = VERIFY_PROBES /* those of a state at one time */
 };
 
 /* Errors have names: "p", "P", "P_all", "u", "F", "sigma", "sigma_all",
- * "probes" are relative L2 norms; with "_abs" absolute L2, with "_max"
+ * "probes", "probes_y" are relative L2 norms; with "_abs" absolute L2, with "_max"
  * relative max, with "_abs_max" absolute max, with "_l1" relative L1. With "snapshots_" before the name of a state's
- * error, the largest of it over the scene's snapshots. "probes_nrmse" is probes_abs over the scene's probe_scale. */
+ * error, the largest of it over the scene's snapshots. "probes_nrmse" is probes_abs over the scene's
+ * probe_scale, and probes_y_nrmse likewise. */
 enum {
     VERIFY_NORMS = 5,
     VERIFY_STATE_ERRORS = VERIFY_NORMS * VERIFY_STATE_FIELDS, /* these come first */
     VERIFY_SNAPSHOT_ERRORS = VERIFY_NORMS * VERIFY_FIELDS,    /* where those of the snapshots begin */
     VERIFY_PROBES_NRMSE = VERIFY_SNAPSHOT_ERRORS + VERIFY_STATE_ERRORS,
+    VERIFY_PROBES_Y_NRMSE,
     VERIFY_ERRORS
 };
 

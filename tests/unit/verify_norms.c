@@ -145,16 +145,23 @@ static void probes_over_time(void)
     check(error[verify_error_find("probes_abs_max")], 2);
     check(error[verify_error_find("probes_max")], 2 / sqrt(13));
     check(error[verify_error_find("probes_nrmse")], sqrt((0.25 + 4) / 6) / 0.5);
+    check(error[verify_error_find("probes_y_abs")], sqrt(0.25 / 6)); /* the 2 is along x */
+    check(error[verify_error_find("probes_y")], sqrt(0.25 / (1 + 1 + 4 + 4)));
+    check(error[verify_error_find("probes_y_abs_max")], 0.5);
+    check(error[verify_error_find("probes_y_nrmse")], sqrt(0.25 / 6) / 0.5);
     CU_ASSERT_TRUE_FATAL(verify_norms_probes(&history, &kind, NULL, 0, error, &why));
     CU_ASSERT(isnan(error[verify_error_find("probes_nrmse")])); /* relative to nothing */
-    u[3] = NAN;
+    CU_ASSERT(isnan(error[verify_error_find("probes_y_nrmse")]));
+    u[4] = NAN;
     CU_ASSERT_TRUE_FATAL(verify_norms_probes(&history, &kind, NULL, 0.5, error, &why));
     CU_ASSERT(isnan(error[verify_error_find("probes")]) && isnan(error[verify_error_find("probes_abs_max")]));
     CU_ASSERT(isnan(error[verify_error_find("probes_nrmse")]));
+    CU_ASSERT(isnan(error[verify_error_find("probes_y")]) && isnan(error[verify_error_find("probes_y_nrmse")]));
     const struct solver_history none = {.count = 1}; /* nothing was recorded, so nothing is said */
     error[verify_error_find("probes")] = error[verify_error_find("probes_nrmse")] = 0;
     CU_ASSERT_TRUE_FATAL(verify_norms_probes(&none, &kind, NULL, 0.5, error, &why));
     CU_ASSERT(isnan(error[verify_error_find("probes")]) && isnan(error[verify_error_find("probes_nrmse")]));
+    CU_ASSERT(isnan(error[verify_error_find("probes_y")]));
 }
 
 /* The largest of each error, whichever snapshot it comes from; one that could not be measured stays unmeasured. */
@@ -184,14 +191,19 @@ static void errors_that_apply(void)
 {
     static const struct {
         const char *name, *lacks;
-    } needs[] = {{"snapshots_P_l1", "snapshots"}, {"probes_abs", "probes"}, {"probes_nrmse", "probe_scale"}};
-    struct solver_scene scene = {.probe_count = 1, .probe_scale = 1, .snapshot_count = 1};
+    } needs[] = {{"snapshots_P_l1", "snapshots"},
+                 {"probes_abs", "probes"},
+                 {"probes_nrmse", "probe_scale"},
+                 {"probes_y_abs_max", "dim = 2 or 3, so that there is a y"},
+                 {"probes_y_nrmse", "dim = 2 or 3, so that there is a y"}};
+    struct solver_scene scene = {.dim = 2, .probe_count = 1, .probe_scale = 1, .snapshot_count = 1};
     const char *lacks = NULL;
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
         CU_ASSERT(verify_error_applies(&scene, i, &lacks) && lacks == NULL);
     }
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
         struct solver_scene less = scene;
+        less.dim = i >= 3 ? 1 : 2;
         less.snapshot_count = i == 0 ? 0 : 1;
         less.probe_count = i == 1 ? 0 : 1;
         less.probe_scale = i == 2 ? 0 : 1;
