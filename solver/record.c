@@ -89,13 +89,15 @@ static bool add_tensor(struct solver_record *record, const char *name, const cha
     return true;
 }
 
-static bool add_tags(struct solver_record *record, const uint32_t *tags, struct solver_error *error)
+/* No source, no field. */
+static bool add_numbers(struct solver_record *record, const char *name, const uint32_t *source,
+                        struct solver_error *error)
 {
-    double *value = add_field(record, "tags", "-", 1, error);
+    double *value = source != NULL ? add_field(record, name, "-", 1, error) : NULL;
     for (size_t a = 0; value != NULL && a < record->count; a++) {
-        value[a] = (double)tags[a];
+        value[a] = (double)source[a];
     }
-    return value != NULL;
+    return value != NULL || source == NULL;
 }
 
 static bool add_fields(struct solver_record *record, const struct solver_scene *scene,
@@ -111,11 +113,13 @@ static bool add_fields(struct solver_record *record, const struct solver_scene *
            add_tensor(record, "H", "-", scene->evolved == SOLVER_PFHJ ? output->H : NULL, output->J, error) &&
            add_scalar(record, "J", "-", output->J, error) &&
            add_tensor(record, "P", "Pa", output->P, output->P_normal, error) &&
+           add_numbers(record, "body", output->cloud->body, error) &&
            add_vector(record, "displacement", "m", output->u, error) &&
            add_vector(record, "momentum", "kg/(m^2 s)", output->p, error) &&
            add_scalar(record, "pressure", "Pa", output->pressure, error) &&
            add_tensor(record, "sigma", "Pa", output->sigma, output->sigma_normal, error) &&
-           add_tags(record, output->cloud->tags, error) && add_vector(record, "velocity", "m/s", output->v, error) &&
+           add_numbers(record, "tags", output->cloud->tags, error) &&
+           add_vector(record, "velocity", "m/s", output->v, error) &&
            add_scalar(record, "volume", volume_unit[record->dim], output->V, error) &&
            add_scalar(record, "von_mises", "Pa", output->von_mises, error);
 }

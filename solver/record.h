@@ -48,8 +48,8 @@ struct solver_record {
 };
 
 /* The record of what the body is doing now; history may be NULL. Fields are sorted by name. F and P are
- * among them where the scheme has them, H where it is evolved. SOLVER_BAD_INPUT if a probe's name is too long for a
- * column's, SOLVER_NO_MEMORY. */
+ * among them where the scheme has them, H where it is evolved, "body" where there are several. SOLVER_BAD_INPUT if a
+ * probe's name is too long for a column's, SOLVER_NO_MEMORY. */
 bool solver_record_make(const struct solver_scene *scene, const struct solver_output *output,
                         const struct solver_history *history, const char *command, const char *version,
                         struct solver_record **record, struct solver_error *error);

@@ -21,14 +21,16 @@ static int choose_threads(int wanted, int dim, size_t particles)
     return worth < 1 ? 1 : worth < (size_t)cores ? (int)worth : cores;
 }
 
-/* Constants of one particle of a composite body. */
+/* Constants of one particle of a composite body; a particle of a wall is of what it is beside. */
 static bool constants_at(const struct solver_run *run, size_t a, struct solver_material_constants *constants,
                          struct solver_error *error)
 {
     size_t dim = (size_t)run->cloud->dim;
     double X[3] = {0};
     double value[3];
-    memcpy(X, run->cloud->X + a * dim, dim * sizeof *X);
+    for (size_t i = 0; i < dim; i++) {
+        X[i] = fmin(fmax(run->cloud->X[a * dim + i], run->scene->lower[i]), run->scene->upper[i]);
+    }
     if (!solver_scene_eval(run->scene, SOLVER_MATERIAL_AT, X, 0.0, value, 3, error)) {
         return false;
     }
@@ -109,7 +111,7 @@ static void find_probes(struct solver_run *run)
     size_t dim = (size_t)run->cloud->dim;
     for (size_t i = 0; i < run->scene->probe_count; i++) {
         double nearest = INFINITY;
-        for (size_t a = 0; a < run->cloud->count; a++) {
+        for (size_t a = 0; a < run->shown.count; a++) {
             double square = 0.0;
             for (size_t axis = 0; axis < dim; axis++) {
                 double d = run->cloud->X[a * dim + axis] - run->scene->probe[i].X[axis];
@@ -123,16 +125,29 @@ static void find_probes(struct solver_run *run)
     }
 }
 
-static bool build_body(struct solver_run *run, struct solver_error *error)
+static bool build_cloud(struct solver_run *run, struct solver_error *error)
 {
     const struct solver_scene *scene = run->scene;
+    double spacing = scene->reference_length / scene->n;
     struct solver_box box = {.dim = scene->dim,
-                             .spacing = scene->reference_length / scene->n,
+                             .spacing = spacing,
                              .perturb = scene->perturb,
-                             .seed = scene->seed};
+                             .seed = scene->seed,
+                             .centred = scene->lattice == SOLVER_CENTRES};
     memcpy(box.lower, scene->lower, sizeof box.lower);
     memcpy(box.upper, scene->upper, sizeof box.upper);
-    return solver_cloud_box(&box, &run->cloud, error) && set_constants(run, error);
+    for (int face = 0; face < SOLVER_FACES; face++) {
+        box.wall[face] = (uint32_t)solver_scene_wall(scene, face);
+    }
+    bool made = scene->shape_count > 0
+                    ? solver_cloud_bodies(scene->dim, scene->shape, scene->shape_count, spacing, &run->cloud, error)
+                    : solver_cloud_box(&box, &run->cloud, error);
+    if (made) {
+        run->shown = *run->cloud;
+        run->shown.count -= run->cloud->wall_count;
+        run->shown.wall_count = 0;
+    }
+    return made;
 }
 
 static bool build(struct solver_run *run, struct solver_error *error)
@@ -145,7 +160,7 @@ static bool build(struct solver_run *run, struct solver_error *error)
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: no integrator \"%s\" or scheme \"%s\"", scene->path,
                            scene->integrator, scene->scheme);
     }
-    if (!build_body(run, error)) {
+    if (!build_cloud(run, error) || !set_constants(run, error)) {
         return false;
     }
     run->threads = choose_threads(scene->threads, scene->dim, run->cloud->count);

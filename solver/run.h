@@ -13,8 +13,8 @@ struct solver_run;
 /* What the body is doing now. Arrays belong to the run and hold until its next call. [count] particles; tensors
  * row by row; F, H, P and sigma are the in-plane [dim][dim] blocks. */
 struct solver_output {
-    const struct solver_cloud *cloud;
-    double time; /* [s] */
+    const struct solver_cloud *cloud; /* without particles of walls */
+    double time;                      /* [s] */
     size_t step;
     const double *V;        /* [count] stencil volumes: the weights of every norm and sum */
     const double *u;        /* [count][dim] displacement [m] */

@@ -11,6 +11,7 @@
 struct solver_run {
     const struct solver_scene *scene;
     struct solver_cloud *cloud;
+    struct solver_cloud shown;                   /* the same without its walls, for all that the run shows */
     struct solver_material_constants *constants; /* of the body, or of each particle of a composite one */
     struct solver_body body;                     /* the three above, for the scheme */
     const struct solver_scheme *scheme;

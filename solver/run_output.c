@@ -37,7 +37,7 @@ static size_t lay_out(const struct solver_run *run, struct arrays *at)
     size_t size = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         *rows[i].array = run->output != NULL && rows[i].width > 0 ? run->output + size : NULL;
-        size += run->cloud->count * rows[i].width;
+        size += run->shown.count * rows[i].width;
     }
     return size;
 }
@@ -101,11 +101,11 @@ bool solver_run_output(struct solver_run *run, struct solver_output *output, str
         }
         (void)lay_out(run, &at);
     }
-    for (size_t a = 0; a < run->cloud->count; a++) {
+    for (size_t a = 0; a < run->shown.count; a++) {
         write_motion(run, &at, a);
         write_point(run, &at, a);
     }
-    *output = (struct solver_output){.cloud = run->cloud,
+    *output = (struct solver_output){.cloud = &run->shown,
                                      .time = run->time,
                                      .step = run->step,
                                      .V = run->scheme->geometry(run->system).V,
@@ -193,7 +193,7 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
     size_t lanes = run->state.lanes;
     const double *V = run->scheme->geometry(run->system).V;
     struct solver_totals totals = {.time = run->time, .external = run->external};
-    for (size_t a = 0; a < run->cloud->count; a++) { /* one order of summation, whatever the threads */
+    for (size_t a = 0; a < run->shown.count; a++) { /* one order of summation, whatever the threads */
         add_particle(run, a, V[a], &totals);
     }
     for (size_t i = 0; i < history->probe_count; i++) {

@@ -85,97 +85,7 @@ static bool describe(struct solver_scene *scene, const char *path, const char *c
     return true;
 }
 
-/* --- resolution --- */
-
-/* "18 kB", "3.1 GB" */
-static void bytes_text(double bytes, char *out, size_t size)
-{
-    static const char *const unit[] = {"kB", "MB", "GB", "TB"};
-    size_t i = 0;
-    for (bytes /= 1e3; bytes >= 1e3 && i < 3; i++)
-        bytes /= 1e3;
-    snprintf(out, size, "%.3g %s", bytes, unit[i]);
-}
-
-/* Refuses an n whose lattice does not fit the box, or the machine. */
-static void check_lattice(lua_State *L, const struct solver_scene *scene, const char *key, double n)
-{
-    static const double per_particle[] = {0, 800, 1500, 3000}; /* bytes of state, stencil and integrator, rounded up */
-    double particles = 1, spacing = scene->reference_length / n;
-    for (int d = 0; d < scene->dim; d++) {
-        double edge = scene->upper[d] - scene->lower[d], spacings = edge / spacing;
-        if (!(fabs(spacings - round(spacings)) <= 1e-9 * spacings) || round(spacings) < 1)
-            scene_refuse(L, "%s = %.15g: the edge along %c, %g m, is %.6g spacings of %g m; expected a whole number",
-                         key, n, "XYZ"[d], edge, spacings, spacing);
-        particles *= round(spacings) + 1;
-    }
-    double needed = particles * per_particle[scene->dim];
-    double memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-    char needed_text[32], memory_text[32];
-    bytes_text(needed, needed_text, sizeof needed_text);
-    bytes_text(memory, memory_text, sizeof memory_text);
-    if (needed > memory)
-        scene_refuse(L, "%s = %.15g: asks for %.3g particles and about %s of memory; this machine has %s", key, n,
-                     particles, needed_text, memory_text);
-    if (particles > 2147483648.0 || n > INT_MAX)
-        scene_refuse(L,
-                     "%s = %.15g: asks for %.3g particles and about %s of memory; at most 2^31 particles are possible",
-                     key, n, particles, needed_text);
-}
-
-/* The whole number on top of the stack. */
-static int read_n(lua_State *L, const struct solver_scene *scene, const char *key)
-{
-    double n = scene_read_number(L, key, -1, 1, 1e300, "whole number >= 1");
-    if (n != floor(n))
-        scene_refuse_value(L, key, "whole number >= 1", -1);
-    check_lattice(L, scene, key, n);
-    return (int)n;
-}
-
-static void read_resolution(lua_State *L, struct solver_scene *scene)
-{
-    scene_lua_push(L, "n");
-    scene->n = read_n(L, scene, "n");
-    lua_pop(L, 1);
-    scene_lua_push(L, "levels");
-    if (lua_isnil(L, -1)) {
-        scene->levels[0] = scene->n;
-        scene->level_count = 1;
-    } else {
-        double level[SOLVER_LEVELS];
-        size_t count = lua_istable(L, -1) ? lua_rawlen(L, -1) : 0;
-        if (count < 1 || count > SOLVER_LEVELS)
-            scene_refuse_value(L, "levels", "list of 1 to 16 increasing whole numbers >= 1", -1);
-        scene_read_numbers(L, "levels", -1, level, count);
-        for (size_t i = 0; i < count; i++) {
-            char key[32];
-            snprintf(key, sizeof key, "levels[%zu]", i + 1);
-            lua_rawgeti(L, -1, (lua_Integer)i + 1);
-            scene->levels[i] = read_n(L, scene, key);
-            lua_pop(L, 1);
-            if (i > 0 && scene->levels[i] <= scene->levels[i - 1])
-                scene_refuse(L, "%s: expected increasing values of n, got %d after %d", key, scene->levels[i],
-                             scene->levels[i - 1]);
-        }
-        scene->level_count = count;
-    }
-    lua_pop(L, 1);
-}
-
 /* --- what must hold between keys --- */
-
-static void check_domain(lua_State *L, struct solver_scene *scene)
-{
-    for (int d = 0; d < scene->dim; d++) {
-        double edge = scene->upper[d] - scene->lower[d];
-        if (!(edge > 0) || !isfinite(edge))
-            scene_refuse(L, "domain.upper[%d]: expected a number above domain.lower[%d] = %g, got %g", d + 1, d + 1,
-                         scene->lower[d], scene->upper[d]);
-    }
-    if (scene->reference_length == 0) /* not given */
-        scene->reference_length = scene->upper[0] - scene->lower[0];
-}
 
 static void check_view(lua_State *L, const struct solver_view *view)
 {
@@ -198,14 +108,15 @@ static int read_scene(lua_State *L)
         scene_refuse(L,
                      "material.nu: 0.5 is incompressible, which needs a solver that is not there yet; take nu < 0.5, "
                      "say 0.4999");
-    check_domain(L, scene);
+    scene_read_bodies(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)
         if (solver_scene_has(scene, (enum solver_formula)f))
             scene_refuse(L, "initial.from: the oracle gives the initial state, and the scene a formula for it besides");
     if (scene->has_view)
         check_view(L, &scene->view);
-    read_resolution(L, scene);
     scene_read_faces(L, scene);
+    scene_check_faces(L, scene);
+    scene_read_resolution(L, scene);
     scene_read_probes(L, scene);
     scene_read_snapshots(L, scene);
     scene_read_figures(L, scene);
@@ -216,7 +127,19 @@ static int read_scene(lua_State *L)
     return 0;
 }
 
-/* Asks each formula once, so that one that fails does so at once; the corner asked is always a particle. */
+/* A place of the body, or of the first of several: a corner, or a ring's outermost point. */
+static void place_of_body(const struct solver_scene *scene, double X[3])
+{
+    const struct solver_shape *shape = &scene->shape[0];
+    bool ring = scene->shape_count > 0 && shape->kind == SOLVER_SHAPE_RING;
+    memcpy(X, scene->shape_count > 0 ? shape->lower : scene->lower, 3 * sizeof *X);
+    if (ring) {
+        X[0] = shape->upper[0];
+        X[1] = shape->centre[1];
+    }
+}
+
+/* Asks each formula once, so that one that fails does so at once. */
 static bool try_formulas(const struct solver_scene *scene, struct solver_error *error)
 {
     for (int f = 0; f < SOLVER_FORMULAS; f++) {
@@ -225,7 +148,7 @@ static bool try_formulas(const struct solver_scene *scene, struct solver_error *
         size_t count = f == SOLVER_INITIAL_F ? dim * dim : f == SOLVER_MATERIAL_AT ? 3 : dim;
         if (!solver_scene_has(scene, (enum solver_formula)f))
             continue;
-        memcpy(X, scene->lower, sizeof X);
+        place_of_body(scene, X);
         if (f > SOLVER_FACE_X0 && (f - SOLVER_FACE_X0) % 2)
             X[(f - SOLVER_FACE_X0) / 2] = scene->upper[(f - SOLVER_FACE_X0) / 2];
         if (!solver_scene_eval(scene, (enum solver_formula)f, X, 0, value, count, error))

@@ -9,6 +9,7 @@
 #define SOLVER_SCENE_H
 
 #include "solver/error.h"
+#include "solver/shape.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -24,7 +25,8 @@ enum {
     SOLVER_GATES = 32,
     SOLVER_NAMED = 16,
     SOLVER_ROWS = 16,
-    SOLVER_FACES = 6
+    SOLVER_FACES = 6,
+    SOLVER_BODIES = 16
 };
 
 /* Formulas a scene may hold. All are called as f(X, Y, Z, t) in metres and seconds (missing dimensions are 0) and
@@ -48,6 +50,9 @@ enum solver_face_kind {
     SOLVER_TRACTION,  /* first Piola-Kirchhoff traction by formula [Pa] */
     SOLVER_MOTION     /* velocity by formula [m/s] */
 };
+
+/* Where particles lie: on the corners of the cells of a lattice, or in their centres. */
+enum solver_lattice { SOLVER_NODES, SOLVER_CENTRES };
 
 /* Evolved sets of 000_e9ec29e1bde7947d.txt: the geometric measures that have an equation of their own. */
 enum solver_evolved { SOLVER_PF, SOLVER_PFJ, SOLVER_PFHJ };
@@ -157,7 +162,11 @@ struct solver_scene {
     char *overrides;          /* "KEY=value\n" lines as given, "" if none */
 
     int dim;                   /* 1, 2, 3 */
-    double lower[3], upper[3]; /* box domain [m] */
+    double lower[3], upper[3]; /* box domain, or the box around all bodies [m] */
+    size_t shape_count;        /* 0: one body, the domain */
+    struct solver_shape shape[SOLVER_BODIES];
+    enum solver_lattice lattice;
+    int wall;                  /* layers of particles beyond a face that holds or moves them, in SOLVER_CENTRES */
     double reference_length;   /* [m]; spacing = reference_length / n */
     int n;                     /* spacings along the reference length */
     int levels[SOLVER_LEVELS]; /* values of n for a study, increasing */
@@ -217,6 +226,9 @@ struct solver_scene {
 bool solver_scene_load(const char *path, const char *const *overrides, size_t override_count,
                        struct solver_scene **scene, struct solver_error *error);
 void solver_scene_free(struct solver_scene *scene);
+
+/* Layers of particles that hold or move a face (0..5) from beyond it; 0: none. */
+int solver_scene_wall(const struct solver_scene *scene, int face);
 
 /* Whether the scene gives this formula. */
 bool solver_scene_has(const struct solver_scene *scene, enum solver_formula formula);

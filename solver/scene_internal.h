@@ -47,6 +47,8 @@ bool scene_key_admits(const char *path);
 void scene_key_suggest(const char *path, char *out, size_t size);
 /* Place of `word` in a list of words, -1 if absent; *later tells that it is promised for later. */
 int scene_word_find(const char *words, const char *word, bool *later);
+/* The word at a place of such a list. */
+void scene_word_at(const char *words, int place, char *out, size_t size);
 /* Shortest decimal that reads back as the same number. */
 void scene_number_text(double value, char *out, size_t size);
 
@@ -119,7 +121,8 @@ void scene_overrides_finish(lua_State *L);
 /* Pushes a value spelt as on the command line: number, true, false, list or word. */
 void scene_push_spelling(lua_State *L, const char *key, const char *text);
 
-/* --- readers: scene_values.c (plain keys), scene_lists.c and scene_measures.c (structured ones) --- */
+/* --- readers: scene_values.c (plain keys); scene_bodies.c, scene_resolution.c, scene_lists.c and scene_measures.c
+ *     (structured ones) --- */
 
 double scene_read_number(lua_State *L, const char *key, int index, double low, double high, const char *expected);
 /* Copies a string of fewer than `size` bytes. */
@@ -130,7 +133,14 @@ bool scene_push_table(lua_State *L, const char *path, const char *expected);
 /* Length of the list on top of the stack; entries under names are refused unless `named_too`. */
 size_t scene_list_length(lua_State *L, const char *key, size_t limit, bool named_too);
 void scene_read_plain(lua_State *L, struct solver_scene *scene);
+/* Domain or bodies; the plain keys are there. */
+void scene_read_bodies(lua_State *L, struct solver_scene *scene);
+extern const char scene_face_kinds[]; /* words */
 void scene_read_faces(lua_State *L, struct solver_scene *scene);
+/* Refuses conditions that the scene's lattice does not allow. */
+void scene_check_faces(lua_State *L, const struct solver_scene *scene);
+/* n and levels; bodies and faces are there. */
+void scene_read_resolution(lua_State *L, struct solver_scene *scene);
 void scene_read_probes(lua_State *L, struct solver_scene *scene);
 void scene_read_oracle(lua_State *L, struct solver_scene *scene);
 void scene_read_published(lua_State *L, struct solver_scene *scene);

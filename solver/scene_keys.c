@@ -23,8 +23,15 @@ X("title", TEXT, AT(title), 0, 0, 0, "", NEEDED, "text", "what the scene shows")
 X("source", TEXT, AT(source), 0, 0, 0, "", OPTIONAL, "text", "paper and section the scene is taken from")              \
 X("parameters", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "table of NAME = number", "numbers of the scene's own")          \
 X("dim", INTEGER, AT(dim), 1, 3, 0, "", NEEDED, "1, 2 or 3", "space dimensions")                                       \
-X("domain.lower", NUMBERS, AT(lower), 0, 0, 0, "", NEEDED, "list of dim numbers [m]", "lower corner of the box")       \
-X("domain.upper", NUMBERS, AT(upper), 0, 0, 0, "", NEEDED, "list of dim numbers [m]", "upper corner of the box")       \
+X("domain.lower", NUMBERS, AT(lower), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "lower corner of the box")       \
+X("domain.upper", NUMBERS, AT(upper), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "upper corner of the box")       \
+X("bodies", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                       \
+  "list of up to 16 { shape = \"box\", lower = { ... }, upper = { ... } } or { shape = \"ring\", centre = {x, y}, inner = r, outer = R }", \
+  "several bodies, in place of domain")                                                                                \
+X("lattice", INDEX, AT(lattice), 0, 0, 0, "nodes centres", "nodes", "one of nodes, centres",                           \
+  "particles on the corners of cells, so on faces, or in the centres of cells")                                        \
+X("wall", INTEGER, AT(wall), 1, 16, 0, "", "3", "whole number in [1, 16]",                                             \
+  "layers of particles beyond a face that is clamped or moved, where lattice = \"centres\"")                           \
 X("reference_length", NUMBER, AT(reference_length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",            \
   "spacing = reference_length / n; default: the first edge")                                                           \
 X("n", RESOLUTION, AT(n), 0, 0, 0, "", NEEDED, "whole number >= 1", "spacings along the reference length")             \
@@ -234,6 +241,13 @@ int scene_word_find(const char *words, const char *word, bool *later)
         words += step + strspn(words + step, " ");
     }
     return -1;
+}
+
+void scene_word_at(const char *words, int place, char *out, size_t size)
+{
+    for (; place > 0; place--)
+        words = strchr(words, ' ') + 1;
+    snprintf(out, size, "%.*s", (int)strcspn(words, " "), words);
 }
 
 void scene_number_text(double value, char *out, size_t size)

@@ -57,7 +57,7 @@ static void append(lua_State *L, const char *key, const char *name, struct solve
 
 /* --- faces --- */
 
-static const char face_kinds[] = "free symmetric skew-symmetric clamped traction motion";
+const char scene_face_kinds[] = "free symmetric skew-symmetric clamped traction motion";
 
 void scene_read_faces(lua_State *L, struct solver_scene *scene)
 {
@@ -94,7 +94,7 @@ void scene_read_faces(lua_State *L, struct solver_scene *scene)
         } else
             lua_pushvalue(L, given);
         bool later;
-        int kind = lua_type(L, -1) == LUA_TSTRING ? scene_word_find(face_kinds, lua_tostring(L, -1), &later) : -1;
+        int kind = lua_type(L, -1) == LUA_TSTRING ? scene_word_find(scene_face_kinds, lua_tostring(L, -1), &later) : -1;
         if (kind < 0)
             scene_refuse_value(L, key->key, key->expects, -1);
         bool wants_value = kind == SOLVER_TRACTION || kind == SOLVER_MOTION;

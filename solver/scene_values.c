@@ -216,10 +216,9 @@ bool solver_scene_text(const struct solver_scene *scene, const char *path, char 
     if (rule && rule->kind == SCENE_SEED)
         return (size_t)snprintf(out, size, "%llu", (unsigned long long)*(const uint64_t *)place) < size;
     if (rule && rule->kind == SCENE_INDEX) {
-        const char *word = rule->words;
-        for (int i = *(const int *)place; i > 0; i--)
-            word = strchr(word, ' ') + 1;
-        return (size_t)snprintf(out, size, "%.*s", (int)strcspn(word, " "), word) < size;
+        char word[SOLVER_NAME];
+        scene_word_at(rule->words, *(const int *)place, word, sizeof word);
+        return (size_t)snprintf(out, size, "%s", word) < size;
     }
     if (!strcmp(path, "oracle"))
         return (size_t)snprintf(out, size, "%s", scene->oracle) < size;

@@ -32,7 +32,8 @@ struct solver_stencil {
 
 struct solver_stencil_builder {
     const char *name, *summary;
-    bool antisymmetric, closed, lattice_only;
+    bool antisymmetric, lattice_only;
+    bool closed;  /* sum_b C_ab = -B_a: needs particles on the faces, which carry their areas */
     bool faces;   /* sets the face measures itself */
     int degree;   /* polynomials differentiated exactly away from the boundary */
     int boundary; /* the same at the boundary */

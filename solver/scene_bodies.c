@@ -1,0 +1,190 @@
+/* Reads where bodies are: a box by `domain` or several shapes by `bodies`, and what lattice and faces allow each other.
+ */
+#include "solver/scene_internal.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+int solver_scene_wall(const struct solver_scene *scene, int face)
+{
+    bool held = scene->face[face] == SOLVER_CLAMPED || scene->face[face] == SOLVER_MOTION;
+    return scene->lattice == SOLVER_CENTRES && held ? scene->wall : 0;
+}
+
+/* An upper corner above the lower one along every axis. */
+static void check_corners(lua_State *L, int dim, const char *key, const double *lower, const double *upper)
+{
+    for (int d = 0; d < dim; d++) {
+        double edge = upper[d] - lower[d];
+        if (!(edge > 0) || !isfinite(edge))
+            scene_refuse(L, "%s.upper[%d]: expected a number above %s.lower[%d] = %g, got %g", key, d + 1, key, d + 1,
+                         lower[d], upper[d]);
+    }
+}
+
+/* --- one body --- */
+
+/* The list of `count` numbers under `name` in the table on top of the stack. */
+static void read_list(lua_State *L, const char *key, const char *name, double *out, int count)
+{
+    char path[2 * SOLVER_NAME];
+    snprintf(path, sizeof path, "%s.%s", key, name);
+    lua_getfield(L, -1, name);
+    scene_read_numbers(L, path, -1, out, (size_t)count);
+    lua_pop(L, 1);
+}
+
+static double read_length(lua_State *L, const char *key, const char *name)
+{
+    char path[2 * SOLVER_NAME];
+    snprintf(path, sizeof path, "%s.%s", key, name);
+    lua_getfield(L, -1, name);
+    double length = scene_read_number(L, path, -1, DBL_MIN, DBL_MAX, "number > 0 [m]");
+    lua_pop(L, 1);
+    return length;
+}
+
+/* Refuses keys of the table on top of the stack that are not among `known`, words with spaces around. */
+static void check_keys(lua_State *L, const char *key, const char *known)
+{
+    for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1)) {
+        char word[SOLVER_NAME];
+        const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "1";
+        snprintf(word, sizeof word, " %.60s ", name);
+        if (!strstr(known, word))
+            scene_refuse(L, "%s.%.60s: unknown key; expected%s", key, name, known);
+    }
+}
+
+static void read_ring(lua_State *L, const char *key, struct solver_shape *ring)
+{
+    check_keys(L, key, " shape centre inner outer ");
+    ring->kind = SOLVER_SHAPE_RING;
+    read_list(L, key, "centre", ring->centre, 2);
+    ring->inner = read_length(L, key, "inner");
+    ring->outer = read_length(L, key, "outer");
+    if (!(ring->inner < ring->outer))
+        scene_refuse(L, "%s.outer: expected a number above %s.inner = %g, got %g", key, key, ring->inner, ring->outer);
+    for (int d = 0; d < 2; d++) {
+        ring->lower[d] = ring->centre[d] - ring->outer;
+        ring->upper[d] = ring->centre[d] + ring->outer;
+    }
+}
+
+/* The body on top of the stack. */
+static void read_body(lua_State *L, const struct solver_scene *scene, const char *key, struct solver_shape *shape)
+{
+    static const char expected[] = "{ shape = \"box\", lower = { ... }, upper = { ... } } or { shape = \"ring\", "
+                                   "centre = {x, y}, inner = r, outer = R }";
+    char path[2 * SOLVER_NAME];
+    if (!lua_istable(L, -1))
+        scene_refuse_value(L, key, expected, -1);
+    lua_getfield(L, -1, "shape");
+    snprintf(path, sizeof path, "%s.shape", key);
+    const char *kind = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "";
+    if (strcmp(kind, "box") != 0 && strcmp(kind, "ring") != 0)
+        scene_refuse_value(L, path, "\"box\" or \"ring\"", -1);
+    bool ring = kind[0] == 'r';
+    lua_pop(L, 1);
+    if (ring) {
+        if (scene->dim != 2)
+            scene_refuse(L, "%s: a ring lies in the plane; expected dim = 2, got %d", path, scene->dim);
+        read_ring(L, key, shape);
+    } else {
+        check_keys(L, key, " shape lower upper ");
+        shape->kind = SOLVER_SHAPE_BOX;
+        read_list(L, key, "lower", shape->lower, scene->dim);
+        read_list(L, key, "upper", shape->upper, scene->dim);
+        check_corners(L, scene->dim, key, shape->lower, shape->upper);
+    }
+}
+
+/* --- all of them --- */
+
+/* The box around them is the scene's domain. */
+static void read_bodies(lua_State *L, struct solver_scene *scene)
+{
+    scene->shape_count = scene_list_length(L, "bodies", SOLVER_BODIES, false);
+    if (scene->shape_count == 0)
+        scene_refuse(L, "bodies: expected one body or more, got an empty list");
+    for (size_t i = 0; i < scene->shape_count; i++) {
+        char key[32];
+        snprintf(key, sizeof key, "bodies[%zu]", i + 1);
+        lua_rawgeti(L, -1, (lua_Integer)i + 1);
+        read_body(L, scene, key, &scene->shape[i]);
+        lua_pop(L, 1);
+        for (int d = 0; d < scene->dim; d++) {
+            scene->lower[d] = i == 0 ? scene->shape[i].lower[d] : fmin(scene->lower[d], scene->shape[i].lower[d]);
+            scene->upper[d] = i == 0 ? scene->shape[i].upper[d] : fmax(scene->upper[d], scene->shape[i].upper[d]);
+        }
+    }
+    if (scene->reference_length == 0)
+        scene_refuse(L, "reference_length: missing; expected number > 0 [m]: bodies have no edge that stands for all");
+    if (scene->lattice != SOLVER_CENTRES)
+        scene_refuse(L, "lattice: bodies have their particles in the centres of cells; expected \"centres\", got "
+                        "\"nodes\"");
+    if (scene->perturb > 0)
+        scene_refuse(L, "perturb: expected 0 with bodies, got %g; a domain can be perturbed", scene->perturb);
+}
+
+static void require_domain(lua_State *L)
+{
+    static const char *const keys[] = {"domain.lower", "domain.upper"};
+    for (int i = 0; i < 2; i++) {
+        const struct solver_scene_key *key = &solver_scene_keys()[scene_key_find(keys[i])];
+        scene_lua_push(L, keys[i]);
+        if (lua_isnil(L, -1))
+            scene_refuse(L, "%s: missing; expected %s (%s), or bodies = { ... } in place of domain", key->key,
+                         key->expects, key->meaning);
+        lua_pop(L, 1);
+    }
+}
+
+void scene_read_bodies(lua_State *L, struct solver_scene *scene)
+{
+    scene_lua_push(L, "domain");
+    bool domain = !lua_isnil(L, -1);
+    bool bodies = scene_push_table(L, "bodies", "a list of { shape = \"box\" or \"ring\", ... }");
+    if (domain && bodies)
+        scene_refuse(L, "bodies: the scene has a domain besides; expected one of the two");
+    if (bodies)
+        read_bodies(L, scene);
+    else {
+        require_domain(L);
+        check_corners(L, scene->dim, "domain", scene->lower, scene->upper);
+        if (scene->reference_length == 0) /* not given */
+            scene->reference_length = scene->upper[0] - scene->lower[0];
+    }
+    lua_pop(L, 2);
+}
+
+/* --- faces --- */
+
+void scene_check_faces(lua_State *L, const struct solver_scene *scene)
+{
+    for (int f = 0; f < 2 * scene->dim; f++) {
+        char key[16], kind[SOLVER_NAME];
+        snprintf(key, sizeof key, "faces.%c%d", "XYZ"[f / 2], f % 2);
+        if (scene->face[f] == SOLVER_FREE || scene->lattice == SOLVER_NODES)
+            continue;
+        scene_word_at(scene_face_kinds, (int)scene->face[f], kind, sizeof kind);
+        if (scene->shape_count > 0)
+            scene_refuse(L, "%s: '%s' is a condition on a face of the domain, and bodies are free all around", key,
+                         kind);
+        if (solver_scene_wall(scene, f) == 0)
+            scene_refuse(L,
+                         "%s: '%s' acts on particles that lie on the face; expected lattice = \"nodes\", or free, "
+                         "clamped or motion with \"centres\"",
+                         key, kind);
+        if (isfinite(scene->face_until[f]))
+            scene_refuse(L,
+                         "%s.free_after: with lattice = \"centres\" a wall moves the face, and let go it would stay, a "
+                         "mass too much; expected lattice = \"nodes\"",
+                         key);
+        if (scene->wall < scene->support)
+            scene_refuse(L, "wall: %d layers beyond %s are thinner than the support of %g spacings; expected %d",
+                         scene->wall, key, scene->support, (int)ceil(scene->support));
+    }
+}
