@@ -157,8 +157,10 @@ static void print_snapshots(FILE *file, const struct verify_study *study, const 
 
 const char *verify_residual(char text[VERIFY_RESIDUAL], const struct solver_facts *facts)
 {
-    (void)snprintf(text, VERIFY_RESIDUAL, isnan(facts->stencil_residual) ? "" : ", stencil residual %.2e [-]",
-                   facts->stencil_residual);
+    text[0] = '\0';
+    if (!isnan(facts->stencil_residual)) {
+        (void)snprintf(text, VERIFY_RESIDUAL, ", stencil residual %.2e [-]", facts->stencil_residual);
+    }
     return text;
 }
 

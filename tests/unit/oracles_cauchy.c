@@ -2,9 +2,6 @@
 #include "oracles/oracle.h"
 #include "tests/unit/unit.h"
 
-#include <math.h>
-#include <string.h>
-
 /* A body turned by a right angle about the third axis and stretched threefold along the first: the force on what was
  * the face across the first axis acts along the second, on an area that did not change while the volume tripled. */
 static void test_finite_strain(void)
@@ -26,7 +23,9 @@ static void test_linear(void)
     const struct oracle_state state = {.F = {1.1, 0.2, 0, 0, 1, 0, 0, 0, 1}, .P = {1, 2, 3, 2, 4, 5, 3, 5, 6}};
     double sigma[9];
     oracle_cauchy(&kind, &state, sigma);
-    CU_ASSERT_EQUAL(memcmp(sigma, state.P, sizeof sigma), 0);
+    for (int k = 0; k < 9; k++) {
+        CU_ASSERT_EQUAL(sigma[k], state.P[k]);
+    }
 }
 
 /* det F of a matrix whose every product counts. */
