@@ -232,11 +232,16 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
     /* per stage: the geometry in each pass; fields read by each, rates written; in the update state, start and rate
      * read, state and other fields written. The first stage writes the start instead of reading it. */
     double stage = passes * bytes + (passes + 1.0) * fields + 4.0 * evolved;
+    double mass = 0.0;
+    for (size_t a = 0; a < run->cloud->count; a++) {
+        mass += geometry.V[a] * solver_run_density(run, a);
+    }
     return (struct solver_facts){
         .particles = run->cloud->count,
         .pairs = geometry.pairs,
         .steps = run->step,
         .spacing = run->cloud->spacing,
+        .mass = mass,
         .setup_seconds = run->setup_seconds,
         .seconds = run->seconds,
         .bytes_per_particle = state + bytes + composite,

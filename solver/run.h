@@ -55,6 +55,7 @@ struct solver_history {
 struct solver_facts {
     size_t particles, pairs, steps;
     double spacing;            /* [m] */
+    double mass;               /* [kg]; per unit thickness in 2D, per unit area in 1D */
     double setup_seconds;      /* cloud and stencil */
     double seconds;            /* time loop alone */
     double bytes_per_particle; /* all arrays of state, stencil and integrator, over the particle count */

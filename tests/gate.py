@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 
-BOUND = re.compile(r"(gate )?(rate )?((?:figure )?\w[\w ]*) (<=|>=) (\S+)")
+BOUND = re.compile(r"(gate )?(rate )?((?:figure |indicator )?\w[\w ]*) (<=|>=) (\S+)")
 
 
 def main():
@@ -34,7 +34,7 @@ def main():
         gate, rate, name, op, bound = form[1], form[2], form[3], form[4], float(form[5])
         finest = study["levels"][-1]
         value = (study["rates"][name] if rate else finest["figures"][name[7:]]["error"] if name.startswith("figure ")
-                 else finest["errors"][name])
+                 else finest["indicators"][name[10:]] if name.startswith("indicator ") else finest["errors"][name])
         if not (value <= bound if op == "<=" else value >= bound):
             sys.exit(f"FAIL: {text}: measured {value:.4g}")
         own = {"name": (rate or "") + name, "value": value, "bound": bound, "op": op, "pass": True}

@@ -8,12 +8,14 @@ import subprocess
 import sys
 
 TOP = {"scene", "oracle", "scheme", "stencil", "levels", "rates", "gates", "pass"}
-LEVEL = {"n", "h", "particles", "steps", "seconds", "ns_per_particle_step", "errors", "snapshots", "figures"}
+LEVEL = {"n", "h", "particles", "steps", "seconds", "ns_per_particle_step", "errors", "snapshots", "figures", "indicators"}
 SNAPSHOT = {"t", "errors"}
+INDICATORS = {"clumping", "checkerboard", "linear momentum", "angular momentum", "energy gain"}
 FIGURE = {"measured", "exact", "error"}
 GATE = {"name", "value", "bound", "op", "pass"}
 STATE = {f + e for f in ("p", "P", "P_all", "u", "F", "sigma", "sigma_all") for e in ("", "_abs", "_max", "_abs_max", "_l1")}
-PROBES = {"probes" + e for e in ("", "_abs", "_max", "_abs_max", "_l1")}
+NORMS = ("", "_abs", "_max", "_abs_max", "_l1")
+PROBES, PROBES_Y = {"probes" + e for e in NORMS}, {"probes_y" + e for e in NORMS}  # the latter not in 1D
 ERRORS = STATE | PROBES
 
 
@@ -52,9 +54,13 @@ def check_level(level):
     for key in ("h", "seconds", "ns_per_particle_step"):
         demand(is_number(level[key]) and level[key] >= 0, f"level {key} = {level[key]}")
     names = ERRORS | {"snapshots_" + name for name in STATE if level["snapshots"]}
-    demand(set(level["errors"]) == names, f"names of errors: {sorted(level['errors'])}")
+    demand(set(level["errors"]) in (names, names | PROBES_Y), f"names of errors: {sorted(level['errors'])}")
     check_snapshots(level)
     check_figures(level)
+    demand(set(level["indicators"]) == INDICATORS, f"indicators: {sorted(level['indicators'])}")
+    for name in ("clumping", "checkerboard"):  # where momentum or energy is not known the others are null
+        demand(is_number(level["indicators"][name]), f"indicator {name} = {level['indicators'][name]}")
+    demand(all(value is None or is_number(value) for value in level["indicators"].values()), "indicators")
     for name, value in level["errors"].items():
         demand(is_number(value) and value > 0, f"error {name} = {value}")
     per_step = 1e9 * level["seconds"] / (level["particles"] * level["steps"])
@@ -62,7 +68,8 @@ def check_level(level):
 
 
 def errors_of(level):
-    return {**level["errors"], **{"figure " + name: figure["error"] for name, figure in level["figures"].items()}}
+    return {**level["errors"], **{"figure " + name: figure["error"] for name, figure in level["figures"].items()},
+            **{"indicator " + name: value for name, value in level["indicators"].items()}}
 
 
 def check_gate(gate, study):
@@ -82,9 +89,12 @@ def check(study, code):
     demand(len(study["levels"]) >= 2, "at least two levels")
     for level in study["levels"]:
         check_level(level)
+    demand(all(set(level["errors"]) == set(study["levels"][0]["errors"]) for level in study["levels"]), "names differ")
+    silent = [{name for name, value in level["indicators"].items() if value is None} for level in study["levels"]]
+    demand(all(names == silent[0] for names in silent), f"indicators that say nothing: {silent}")
     coarse, fine = study["levels"][-2:]
     errors_before, errors = errors_of(coarse), errors_of(fine)
-    demand(set(study["rates"]) == set(errors), "names of rates")
+    demand(set(study["rates"]) == {name for name in errors if not name.startswith("indicator ")}, "names of rates")
     for name, rate in study["rates"].items():
         order = math.log(errors_before[name] / errors[name]) / math.log(coarse["h"] / fine["h"])
         demand(is_number(rate) and math.isclose(rate, order, abs_tol=1e-9), f"rate {name} = {rate}, not {order}")
@@ -113,6 +123,8 @@ def spoiled(study):
             inner = copied
             for key in path[:-1]:
                 inner = inner[key]
+            if inner[path[-1]] is wrong:
+                continue  # null already
             if wrong == "gone" and isinstance(inner, dict):
                 del inner[path[-1]]
             elif wrong == "gone" or (wrong == "?" and type(inner[path[-1]]) is str and path[-1] != "op"):

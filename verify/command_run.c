@@ -40,6 +40,19 @@ static bool keep(const struct solver_scene *scene, struct solver_run *run, const
     return drawn;
 }
 
+static bool judge(const struct solver_scene *scene, struct solver_run *run, const struct solver_facts *facts,
+                  struct solver_error *error)
+{
+    struct solver_output output;
+    double value[VERIFY_INDICATORS];
+    if (!solver_run_output(run, &output, error) ||
+        !verify_indicators_measure(scene, &output, solver_run_history(run), facts, value, error)) {
+        return false;
+    }
+    verify_terminal_indicators(stdout, value);
+    return true;
+}
+
 static bool run_scene(struct solver_scene *scene, const struct verify_options *options, struct solver_error *error)
 {
     char folder[VERIFY_PATH];
@@ -54,7 +67,7 @@ static bool run_scene(struct solver_scene *scene, const struct verify_options *o
     if (history->count > 0) {
         verify_terminal_totals(stdout, &history->totals[0], &history->totals[history->count - 1]);
     }
-    bool kept = keep(scene, run, folder, options->line, error);
+    bool kept = judge(scene, run, &facts, error) && keep(scene, run, folder, options->line, error);
     solver_run_free(run);
     return kept;
 }

@@ -74,7 +74,7 @@ static bool take(void *context, struct solver_run *run, struct solver_error *err
     return verify_level_snapshot(&work->level_now, run, work->truth.kind, work->truth.oracle, error);
 }
 
-/* Errors of a finished run. */
+/* Errors, figures and indicators of a finished run. */
 static bool measure(struct work *work, struct solver_run *run, struct solver_error *error)
 {
     const struct verify_truth *truth = &work->truth;
@@ -85,7 +85,9 @@ static bool measure(struct work *work, struct solver_run *run, struct solver_err
            verify_norms_state(&output, truth->kind, truth->oracle, level->error, error) &&
            verify_norms_probes(solver_run_history(run), truth->kind, truth->oracle, work->scene->probe_scale,
                                level->error, error) &&
-           verify_figures_measure(work->scene, truth, solver_run_history(run), level, error);
+           verify_figures_measure(work->scene, truth, solver_run_history(run), level, error) &&
+           verify_indicators_measure(work->scene, &output, solver_run_history(run), &level->facts, level->indicator,
+                                     error);
 }
 
 /* What is kept of the finest level alone. */

@@ -34,6 +34,21 @@ static bool figure_value(const struct solver_scene *scene, const struct verify_l
                        name);
 }
 
+static bool indicator_value(const struct verify_level *level, const char *name, bool is_rate, const char *where,
+                            struct verify_value *value, struct solver_error *error)
+{
+    size_t which = verify_indicator_find(name);
+    if (which == VERIFY_INDICATORS || is_rate) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: \"%sindicator %s\": there are the indicators clumping, checkerboard, linear momentum, "
+                           "angular momentum and energy gain, and no rates of them",
+                           where, is_rate ? "rate " : "", name);
+    }
+    value->value = level->indicator[which];
+    value->op = verify_indicator_op(which);
+    return true;
+}
+
 static bool error_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
                         const char *where, struct verify_value *value, struct solver_error *error)
 {
@@ -59,6 +74,9 @@ bool verify_level_value(const struct solver_scene *scene, const struct verify_le
     const char *of;
     bool is_rate = begins(name, "rate ", &of);
     *value = (struct verify_value){.op = is_rate ? ">=" : "<=", .unit = "-"};
+    if (begins(of, "indicator ", &of)) {
+        return indicator_value(level, of, is_rate, where, value, error);
+    }
     return begins(of, "figure ", &of) ? figure_value(scene, level, of, is_rate, where, &value->value, error)
                                       : error_value(scene, level, name, where, value, error);
 }

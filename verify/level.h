@@ -3,6 +3,7 @@
 #define VERIFY_LEVEL_H
 
 #include "solver/run.h"
+#include "verify/indicators.h"
 #include "verify/norms.h"
 #include "verify/snapshot.h"
 
@@ -23,6 +24,7 @@ struct verify_level {
     size_t snapshot_count;      /* taken so far */
     struct verify_snapshot snapshot[SOLVER_SNAPSHOTS];
     struct verify_figure figure[SOLVER_FIGURES]; /* of the scene's, in its order */
+    double indicator[VERIFY_INDICATORS];         /* [-] */
 };
 
 /* A measured value and how a bound holds it. */
@@ -35,8 +37,8 @@ struct verify_value {
 /* The error that a gate's name is of, VERIFY_ERRORS if there is none; *is_rate (may be NULL): "rate " stands before it.
  */
 size_t verify_level_error(const char *name, bool *is_rate);
-/* The value a gate names: an error or "figure NAME" (its error), or "rate " and one of these. If the scene cannot have
- * it, fails (SOLVER_BAD_INPUT) with what there is; the text begins with `where`. */
+/* The value a gate names: an error or "figure NAME" (its error), "rate " and one of these, or "indicator NAME". If the
+ * scene cannot have it, fails (SOLVER_BAD_INPUT) with what there is; the text begins with `where`. */
 bool verify_level_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
                         const char *where, struct verify_value *value, struct solver_error *error);
 

@@ -17,6 +17,9 @@ const char *verify_residual(char text[VERIFY_RESIDUAL], const struct solver_fact
 /* Conserved quantities at the start and the end of a run. */
 void verify_terminal_totals(FILE *file, const struct solver_totals *first, const struct solver_totals *last);
 
+/* What they and the particles say of the run, indicator by indicator. */
+void verify_terminal_indicators(FILE *file, const double value[VERIFY_INDICATORS]);
+
 /* JSON, in the one shape that --json always has; numbers that are not finite are null. Where no gate holds for the
  * configuration "pass" is null: nothing was judged. */
 void verify_json(FILE *file, const struct verify_study *study);

@@ -9,7 +9,7 @@ static const char style[] =
     "h1{font-size:1.6rem;margin-bottom:0}h2{font-size:1.15rem;margin-top:2.2rem}"
     "table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.9rem}"
     "th,td{padding:.25rem .7rem;text-align:right;border-bottom:1px solid #d8dee4}"
-    "th{font-weight:600}th:first-child,td:first-child{text-align:left}"
+    "th{font-weight:600}th:first-child,td:first-child,td.help{text-align:left}"
     ".pass{color:#11632f}.fail{color:#a40e26;font-weight:600}"
     ".verdict{font-size:1.15rem;padding:.5rem 1rem;border-left:6px solid;margin:1.2rem 0;background:#f6f8fa}"
     ".row{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(26rem,100%),1fr));gap:1rem}.row>*{margin:0}"
@@ -236,6 +236,24 @@ static void figures(FILE *file, const struct verify_study *study)
                   "value is 0. How each is measured stands in the scene under figures.</p>\n");
 }
 
+static void indicators(FILE *file, const struct verify_study *study)
+{
+    (void)fprintf(file, "<h2>Physical indicators</h2><table><tr><th>indicator [-]</th>");
+    for (size_t i = 0; i < study->level_count; i++) {
+        (void)fprintf(file, "<th>n = %d</th>", study->level[i].n);
+    }
+    (void)fprintf(file, "<th></th></tr>\n");
+    for (size_t i = 0; i < VERIFY_INDICATORS; i++) {
+        (void)fprintf(file, "<tr><td>%s</td>", verify_indicator_name(i));
+        for (size_t j = 0; j < study->level_count; j++) {
+            cell(file, "e", study->level[j].indicator[i]);
+        }
+        (void)fprintf(file, "<td class=\"help\">%s</td></tr>\n", verify_indicator_meaning(i));
+    }
+    (void)fprintf(file, "</table>\n<p class=\"note\">Momentum is conserved, and shown, where all faces are free; the "
+                        "energy gain is known where no face is moved.</p>\n");
+}
+
 static void gates(FILE *file, const struct verify_gates *judged)
 {
     (void)fprintf(file, "<h2>Gates</h2>\n");
@@ -348,6 +366,7 @@ bool verify_html(FILE *file, const struct verify_study *study, const size_t *sho
         }
         (void)fprintf(file, "</div>\n");
         gates(file, &study->gates);
+        indicators(file, study);
         traces(file, study);
         (void)fprintf(file, "<h2>Pictures</h2><div class=\"row\">\n");
         if (!picture(file, study->picture, "computed, finest level", error) ||

@@ -128,6 +128,16 @@ static void figures(FILE *file, const struct solver_scene *scene, const struct v
     (void)fputc('}', file);
 }
 
+static void indicators(FILE *file, const struct verify_level *level)
+{
+    (void)fputs(", \"indicators\": {", file);
+    for (size_t i = 0; i < VERIFY_INDICATORS; i++) {
+        (void)fputs(i == 0 ? "" : ", ", file);
+        number_member(file, verify_indicator_name(i), level->indicator[i]);
+    }
+    (void)fputc('}', file);
+}
+
 static void level_object(FILE *file, const struct solver_scene *scene, const struct verify_level *level)
 {
     (void)fprintf(file, "{\"n\": %d, ", level->n);
@@ -141,6 +151,7 @@ static void level_object(FILE *file, const struct solver_scene *scene, const str
     (void)fputc('}', file);
     snapshots(file, scene, level);
     figures(file, scene, level);
+    indicators(file, level);
     (void)fputc('}', file);
 }
 

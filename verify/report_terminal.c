@@ -222,6 +222,7 @@ void verify_terminal_end(FILE *file, const struct verify_study *study, const siz
     print_snapshots(file, study, shown, shown_count);
     print_figures(file, study);
     print_facts(file, study);
+    verify_terminal_indicators(file, study->level[study->level_count - 1].indicator);
     print_gates(file, study);
 }
 
@@ -246,5 +247,15 @@ void verify_terminal_totals(FILE *file, const struct solver_totals *first, const
                   gained, scale > 0 ? gained / scale : NAN);
     if (!(gained <= 0.01 * scale)) {
         (void)fprintf(file, "  WARNING: the energy grew out of nothing by more than 1 %%: the run is not stable\n");
+    }
+}
+
+void verify_terminal_indicators(FILE *file, const double value[VERIFY_INDICATORS])
+{
+    (void)fprintf(file, "indicators\n");
+    for (size_t i = 0; i < VERIFY_INDICATORS; i++) {
+        char text[32];
+        (void)fprintf(file, "  %-18s %10s  %s\n", verify_indicator_name(i), scientific(text, value[i]),
+                      verify_indicator_meaning(i));
     }
 }

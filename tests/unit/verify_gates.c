@@ -138,6 +138,30 @@ static void figures(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "\"figure contact\""));
 }
 
+/* Each indicator has the side that is good of its own, and no order. */
+static void indicators(void)
+{
+    prepare();
+    scene->gate[0].bounds = 2;
+    scene->gate[0].bound[0] = (struct solver_named){"indicator checkerboard", 0.1};
+    scene->gate[0].bound[1] = (struct solver_named){"indicator clumping", 0.7};
+    level.indicator[VERIFY_CHECKERBOARD] = 0.05;
+    level.indicator[VERIFY_CLUMPING] = 0.6;
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_EQUAL_FATAL(gates.count, 2);
+    CU_ASSERT(gates.gate[0].pass && strcmp(gates.gate[0].op, "<=") == 0);
+    CU_ASSERT(!gates.gate[1].pass && strcmp(gates.gate[1].op, ">=") == 0);
+    level.indicator[VERIFY_CHECKERBOARD] = NAN;
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_FALSE(gates.gate[0].pass);
+    strcpy(scene->gate[0].bound[0].name, "rate indicator checkerboard");
+    CU_ASSERT_FALSE(judge());
+    CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "\"rate indicator checkerboard\""));
+    strcpy(scene->gate[0].bound[0].name, "indicator checkers");
+    CU_ASSERT_FALSE(judge());
+    CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "\"indicator checkers\": there are the indicators clumping"));
+}
+
 static void no_rule(void)
 {
     prepare();
@@ -198,6 +222,7 @@ int main(void)
         {"a rule without conditions", without_conditions},
         {"all conditions count", all_conditions_count},
         {"figures", figures},
+        {"indicators", indicators},
         {"no rule", no_rule},
         {"fields that a scheme has not", fields_that_a_scheme_has_not},
         {"wrong rules", wrong_rules},

@@ -1,0 +1,116 @@
+#include "verify/indicators.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *name, *op, *meaning;
+} table[VERIFY_INDICATORS] = {
+    [VERIFY_CLUMPING] = {"clumping", ">=", "smallest distance of two particles over the spacing"},
+    [VERIFY_CHECKERBOARD] = {"checkerboard", "<=", "departure of the pressure from its neighbours' mean, over itself"},
+    [VERIFY_LINEAR_MOMENTUM] = {"linear momentum", "<=", "drift of the free body, over sqrt(2 mass kinetic energy)"},
+    [VERIFY_ANGULAR_MOMENTUM] = {"angular momentum", "<=", "drift of the free body, over that and its half diagonal"},
+    [VERIFY_ENERGY_GAIN] = {"energy gain", "<=", "largest gain beyond what was put in, over that"},
+};
+
+const char *verify_indicator_name(size_t indicator)
+{
+    return table[indicator].name;
+}
+
+const char *verify_indicator_meaning(size_t indicator)
+{
+    return table[indicator].meaning;
+}
+
+const char *verify_indicator_op(size_t indicator)
+{
+    return table[indicator].op;
+}
+
+size_t verify_indicator_find(const char *name)
+{
+    size_t indicator = 0;
+    while (indicator < VERIFY_INDICATORS && strcmp(table[indicator].name, name) != 0) {
+        indicator++;
+    }
+    return indicator;
+}
+
+static double distance(const double a[3], const double b[3])
+{
+    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+void verify_indicators_history(const struct solver_history *history, double mass, double size,
+                               double value[VERIFY_INDICATORS])
+{
+    const struct solver_totals *first = &history->totals[0];
+    double linear = 0, angular = 0, gain = 0, kinetic = 0, before = first->kinetic + first->strain, supply = before;
+    for (size_t i = 0; i < history->count; i++) {
+        const struct solver_totals *now = &history->totals[i];
+        double work = now->external - first->external;
+        linear = fmax(linear, distance(now->linear, first->linear));
+        angular = fmax(angular, distance(now->angular, first->angular));
+        kinetic = fmax(kinetic, now->kinetic);
+        supply = fmax(supply, before + fabs(work));
+        gain = fmax(gain, now->kinetic + now->strain - before - work);
+    }
+    double scale = sqrt(2 * mass * kinetic);
+    value[VERIFY_LINEAR_MOMENTUM] = scale > 0 ? linear / scale : NAN;
+    value[VERIFY_ANGULAR_MOMENTUM] = scale * size > 0 ? angular / (scale * size) : NAN;
+    value[VERIFY_ENERGY_GAIN] = supply > 0 ? gain / supply : NAN;
+}
+
+/* Half the diagonal of the box around the body at rest [m]. */
+static double half_diagonal(const struct solver_cloud *cloud)
+{
+    double square = 0;
+    for (int axis = 0; axis < cloud->dim; axis++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t a = 0; a < cloud->count; a++) {
+            double X = cloud->X[a * (size_t)cloud->dim + (size_t)axis];
+            low = fmin(low, X);
+            high = fmax(high, X);
+        }
+        square += (high - low) * (high - low);
+    }
+    return sqrt(square) / 2;
+}
+
+/* Nothing from outside acts on a body whose faces are all free and that has no body force. What a moved face puts in is
+ * not known to the history. */
+static void forget_what_is_not_conserved(const struct solver_scene *scene, double value[VERIFY_INDICATORS])
+{
+    for (int face = 0; face < 2 * scene->dim; face++) {
+        if (scene->face[face] != SOLVER_FREE || solver_scene_has(scene, SOLVER_BODY_FORCE)) {
+            value[VERIFY_LINEAR_MOMENTUM] = value[VERIFY_ANGULAR_MOMENTUM] = NAN;
+        }
+        if (scene->face[face] == SOLVER_MOTION) {
+            value[VERIFY_ENERGY_GAIN] = NAN;
+        }
+    }
+}
+
+bool verify_indicators_measure(const struct solver_scene *scene, const struct solver_output *output,
+                               const struct solver_history *history, const struct solver_facts *facts,
+                               double value[VERIFY_INDICATORS], struct solver_error *error)
+{
+    const struct solver_cloud *cloud = output->cloud;
+    size_t numbers = cloud->count * (size_t)cloud->dim;
+    double *x = calloc(numbers, sizeof *x);
+    if (x == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the positions of %zu particles", cloud->count);
+    }
+    for (size_t i = 0; i < numbers; i++) {
+        x[i] = cloud->X[i] + output->u[i];
+    }
+    const struct solver_points now = {
+        .dim = cloud->dim, .count = cloud->count, .stride = (size_t)cloud->dim, .x = x, .body = cloud->body};
+    bool done = verify_indicators_cloud(&now, output->V, output->pressure, cloud->spacing, value, error);
+    free(x);
+    verify_indicators_history(history, facts->mass, half_diagonal(cloud), value);
+    forget_what_is_not_conserved(scene, value);
+    return done;
+}
