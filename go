@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds and runs assay. A second call finds nothing to do and starts at once.
 #   ./go verify swinging-cube    any command of assay; `./go list` shows what there is
-#   ./go test [CTEST ARGS]       builds and runs all tests
+#   ./go test [CTEST ARGS]       builds and runs all tests but those labelled slow, which take minutes each
+#   ./go test --slow [...]       runs these as well; of them alone with -L slow
 set -euo pipefail
 
 here=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
@@ -103,6 +104,11 @@ if command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
 fi
 if $testing; then
   shift
+  which=(--label-exclude '^slow$')
+  arguments=()
+  for argument; do
+    if [[ $argument == --slow ]]; then which=(); else arguments+=("$argument"); fi
+  done
   build all
   # Held until ctest ends: two runs in one folder would trip over each other.
   exec 8>"$here/build/.test-lock" 9>&-
@@ -111,7 +117,7 @@ if $testing; then
     flock 8
   fi
   exec ctest --test-dir "$build" --output-on-failure --no-tests=error --no-label-summary --schedule-random \
-    --parallel "$(nproc)" "$@"
+    --parallel "$(nproc)" "${which[@]}" "${arguments[@]}"
 fi
 build assay
 exec 9>&-

@@ -28,7 +28,7 @@ study_gate(closed LABELS gate
   WORDS --set stencil=closed --set support=2.0 ${rk2})
 
 # Measured 1.035e-3, 1.963e-3, 1.98, 1.73; the bounds on the errors are these and 5 %.
-study_gate(closed-perturbed LABELS gate slow
+study_gate(closed-perturbed LABELS gate
   BOUNDS "p <= 1.09e-3" "P <= 2.06e-3" "gate rate p >= 1.5" "gate rate P >= 1.3"
   WORDS --set stencil=closed --set support=2.0 --set perturb=0.15 ${rk2})
 
@@ -104,7 +104,7 @@ study_gate(bimaterial-ulsph LABELS gate SCENE bimaterial-wave
 
 # The cantilever's tip over four periods at 2 mm, against the plane-strain solution, and its period. Measured 1.76e-2,
 # 1.27e-3; at 1 mm, which the scene's own gates hold (a minute), 6.44e-3, 4.66e-4, order 1.45 of both.
-assay_test(gate-cantilever LABELS gate slow COMMAND ${gate} gates/cantilever "gate probes <= 0.02"
+assay_test(gate-cantilever LABELS gate COMMAND ${gate} gates/cantilever "gate probes <= 0.02"
   "gate figure period <= 1.5e-3" -- $<TARGET_FILE:assay> ${plate_scene} --levels 10)
 # The updated-Lagrangian system over two periods at 4 and 2.5 mm: measured 9.31e-2, 4.18e-2, 1.70; at 2 and 1 mm, which
 # the scene's own gates hold (four minutes), 2.73e-2, 7.25e-3, 1.91.

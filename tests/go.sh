@@ -17,7 +17,9 @@ cd -- "$top"
 echo '{ "version": 3, "configurePresets": [ { "name": "release", "generator": "Ninja",
   "binaryDir": "${sourceDir}/build/release" } ] }' >CMakePresets.json
 printf '%s\n' 'cmake_minimum_required(VERSION 3.22)' 'project(small LANGUAGES C)' 'add_executable(assay main.c)' \
-  'enable_testing()' 'add_test(NAME it-runs COMMAND assay)' >CMakeLists.txt
+  'enable_testing()' 'add_test(NAME it-runs COMMAND assay)' 'add_test(NAME it-runs-long COMMAND assay)' \
+  'set_tests_properties(it-runs-long PROPERTIES LABELS "gate;slow")' 'add_test(NAME it-runs-slowly COMMAND assay)' \
+  'set_tests_properties(it-runs-slowly PROPERTIES LABELS "slowly")' >CMakeLists.txt
 program='#include <stdio.h>\n#include <unistd.h>\nint main(int n, char **v)\n{\n    for (int i = 1; i < n; i++) puts(v[i]);
     fflush(stdout);\n    if (n > 2) sleep(30);\n    return n == 1 ? 0 : 7;\n}\n'
 # shellcheck disable=SC2059 # the program holds the line ends
@@ -64,7 +66,12 @@ expect "second call" 7 "$top/go" list
 [[ ! -e $fake/called ]] || complain "second call" "calls apt-get though nothing is missing"
 
 expect "tests" 0 "$top/go" test
-says "tests" "100% tests passed" "$out"
+says "tests" "100% tests passed, 0 tests failed out of 2" "$out"
+! grep -q it-runs-long "$out" || complain "tests" "runs one that is labelled slow"
+expect "slow tests too" 0 "$top/go" test --slow
+says "slow tests too" "100% tests passed, 0 tests failed out of 3" "$out"
+expect "slow tests alone" 0 "$top/go" test -L '^slow$' --slow
+says "slow tests alone" "100% tests passed, 0 tests failed out of 1" "$out"
 expect "tests that do not exist" 8 "$top/go" test -R no-such-test
 
 # A program that runs keeps nobody waiting; a build does.
