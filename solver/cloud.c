@@ -103,6 +103,7 @@ void solver_cloud_free(struct solver_cloud *cloud)
     free(cloud->body);
     free(cloud->site);
     free(cloud->face_point);
+    free(cloud->image);
     free(cloud->cell);
     free(cloud);
 }

@@ -37,6 +37,8 @@ struct solver_cloud {
     struct solver_face_point *face_point; /* [face_point_count] */
     uint32_t points[3];                   /* particles along each axis of the lattice, with walls; 0: no lattice */
     uint32_t *site;                       /* [count][dim] lattice indices of each particle; NULL: no lattice */
+    uint32_t *image; /* [wall_count] particle of the body of which each particle of a wall is the mirror image;
+                        NULL unless asked for */
     size_t cell_count;
     uint32_t *cell; /* [cell_count][2^dim] particles of each lattice cell, in VTK's order for
                        line, quad and hexahedron (triangles are quads that name a particle twice): for pictures and
@@ -51,6 +53,7 @@ struct solver_box {
     uint64_t seed;
     bool centred;     /* particles in the centres of cells, none on a face */
     uint32_t wall[6]; /* layers of particles beyond each face; only where particles are in the centres of cells */
+    bool mirrored;    /* walls are mirror images: they are not thicker than the body, and the cloud lists images */
 };
 
 /* A box lattice with particles on its boundary: volumes and areas are those of the trapezoidal rule. Or with particles

@@ -88,6 +88,13 @@ static bool lay_out(const struct solver_box *box, struct lattice *lattice, struc
         lattice->first[axis] = box->wall[2 * axis];
         lattice->body[axis] = lattice->cells[axis] + (box->centred ? 0 : 1);
         lattice->points[axis] = box->wall[2 * axis] + lattice->body[axis] + box->wall[2 * axis + 1];
+        uint32_t thickest = box->wall[2 * axis + (box->wall[2 * axis + 1] > box->wall[2 * axis] ? 1 : 0)];
+        if (box->mirrored && thickest > lattice->body[axis]) {
+            return solver_fail(error, SOLVER_BAD_INPUT,
+                               "wall: %u layers beyond a face across %c, and the body has %u to be mirrored in it; "
+                               "choose a larger n",
+                               thickest, "XYZ"[axis], lattice -> body[axis]);
+        }
         size->particles *= lattice->points[axis];
         size->cells *= lattice->body[axis] - 1;
         if (size->particles > INT32_MAX) {
@@ -218,6 +225,38 @@ static bool list_face_points(struct solver_cloud *cloud, struct solver_error *er
     return true;
 }
 
+/* Index within the lattice of the site that mirrors the given one in the faces it lies beyond. */
+static size_t image_of(const struct lattice *lattice, const uint32_t site[3])
+{
+    size_t at = 0;
+    for (int axis = 2; axis >= 0; axis--) {
+        uint32_t first = lattice->first[axis];
+        uint32_t end = first + lattice->body[axis];
+        uint32_t inside = site[axis] < first  ? 2 * first - 1 - site[axis]
+                          : site[axis] >= end ? 2 * end - 1 - site[axis]
+                                              : site[axis];
+        at = at * lattice->points[axis] + inside;
+    }
+    return at;
+}
+
+static bool list_images(struct solver_cloud *cloud, const struct lattice *lattice, uint32_t (*site)[3],
+                        struct solver_error *error)
+{
+    size_t body = cloud->count - cloud->wall_count;
+    uint32_t *particle = NULL;
+    bool ok = solver_alloc((void **)&cloud->image, cloud->wall_count, sizeof *cloud->image, "mirror images", error) &&
+              solver_alloc((void **)&particle, cloud->count, sizeof *particle, "mirror images", error);
+    for (size_t a = 0; ok && a < body; a++) {
+        particle[image_of(lattice, site[a])] = (uint32_t)a;
+    }
+    for (size_t w = 0; ok && w < cloud->wall_count; w++) {
+        cloud->image[w] = particle[image_of(lattice, site[body + w])];
+    }
+    free(particle);
+    return ok;
+}
+
 /* V_a <- V_a (1 + c0 + c . (X_a - centre)/h) such that sum V = |V| and sum V X = integral of X. Two rounds, so that
  * round-off in the first is corrected by the second. */
 static bool correct_moments(struct solver_cloud *cloud, const struct solver_box *box, struct solver_error *error)
@@ -283,6 +322,7 @@ static bool make(struct solver_cloud *cloud, const struct solver_box *box, uint3
         }
     }
     return (box->centred || list_face_points(cloud, error)) &&
+           (!box->mirrored || cloud->wall_count == 0 || list_images(cloud, &lattice, site, error)) &&
            (box->perturb > 0.0 ? correct_moments(cloud, box, error) : true);
 }
 

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Which axes a face constrains, by its kind: the normal, the others, or all. */
 static unsigned constrained_axes(enum solver_face_kind kind, unsigned normal, unsigned dim)
@@ -22,6 +23,18 @@ static unsigned constrained_axes(enum solver_face_kind kind, unsigned normal, un
         break;
     }
     return 0;
+}
+
+/* A mirror image in one face moves the other way, an image in two as the particle itself. */
+static void set_image(struct solver_constraint *constraint, const struct solver_cloud *cloud)
+{
+    size_t body = cloud->count - cloud->wall_count;
+    size_t a = constraint->particle;
+    constraint->image = constraint->particle;
+    if (cloud->image != NULL && a >= body) {
+        constraint->image = cloud->image[a - body];
+        constraint->parity = __builtin_popcount(cloud->tags[a] >> SOLVER_BEYOND_FACE) % 2 == 1 ? -1.0 : 1.0;
+    }
 }
 
 bool solver_faces_create(const struct solver_body *body, const struct solver_geometry *geometry,
@@ -57,6 +70,7 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
         }
         struct solver_constraint *constraint = &faces->constraint[faces->constraint_count++];
         constraint->particle = (uint32_t)a;
+        set_image(constraint, cloud);
         constraint->motion = clamped ? -1 : motion; /* where a clamped face meets a moving one, it holds */
         constraint->until = constraint->motion >= 0 ? scene->face_until[constraint->motion] : INFINITY;
         for (unsigned axis = 0; axis < dim; axis++) {
@@ -86,6 +100,20 @@ static void place(const struct solver_cloud *cloud, size_t a, double X[3])
     }
 }
 
+/* The velocity that a constraint prescribes at particle a; 0 where it holds. */
+static bool prescribe(const struct solver_constraint *constraint, const struct solver_body *body, size_t a, double t,
+                      double velocity[3], struct solver_error *error)
+{
+    double X[3];
+    memset(velocity, 0, 3 * sizeof *velocity);
+    if (constraint->motion < 0 || t > constraint->until) {
+        return true;
+    }
+    place(body->cloud, a, X);
+    return solver_scene_eval(body->scene, (enum solver_formula)(SOLVER_FACE_X0 + constraint->motion), X, t, velocity,
+                             (size_t)body->cloud->dim, error);
+}
+
 bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t, size_t lanes,
                             double *v, struct solver_error *error)
 {
@@ -93,18 +121,18 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
     for (size_t c = 0; c < faces->constraint_count; c++) {
         const struct solver_constraint *constraint = &faces->constraint[c];
         double *at = v + constraint->particle * lanes;
+        const double *of_image = v + constraint->image * lanes;
         double free_part[3] = {0};
-        double velocity[3] = {0};
+        double velocity[3];
+        double image_velocity[3];
+        bool mirrored = constraint->image != constraint->particle;
         const double *keep = t <= constraint->until ? constraint->keep : constraint->after;
-        if (constraint->motion >= 0 && t <= constraint->until) {
-            double X[3];
-            place(body->cloud, constraint->particle, X);
-            if (!solver_scene_eval(body->scene, (enum solver_formula)(SOLVER_FACE_X0 + constraint->motion), X, t,
-                                   velocity, dim, error)) {
-                return false;
-            }
+        if (!prescribe(constraint, body, constraint->particle, t, velocity, error) ||
+            (mirrored && !prescribe(constraint, body, constraint->image, t, image_velocity, error))) {
+            return false;
         }
         for (size_t i = 0; i < dim; i++) {
+            free_part[i] = mirrored ? constraint->parity * (of_image[i] - image_velocity[i]) : 0.0;
             for (size_t j = 0; j < dim; j++) {
                 free_part[i] += keep[i * dim + j] * at[j];
             }

@@ -6,13 +6,16 @@
 #include "solver/scheme.h"
 
 /* A particle whose velocity is not free. v <- keep v + prescribed v(X, t). A particle on several faces takes the
- * constraints of all of them. */
+ * constraints of all of them. One of a mirrored wall moves against its image in the body, so that the face between them
+ * has the prescribed velocity, and the velocity is as smooth across the face as it is within the body. */
 struct solver_constraint {
     uint32_t particle;
     int motion;      /* face whose velocity formula it follows, or -1 */
     double keep[9];  /* [dim][dim] projection onto the directions left free */
     double until;    /* [s] the motion ends; what other faces hold stays held */
     double after[9]; /* [dim][dim] the projection from then on */
+    uint32_t image;  /* particle of whose velocity relative to the face's it has `parity` times; or itself */
+    double parity;
 };
 
 struct solver_faces {

@@ -133,7 +133,8 @@ static bool build_cloud(struct solver_run *run, struct solver_error *error)
                              .spacing = spacing,
                              .perturb = scene->perturb,
                              .seed = scene->seed,
-                             .centred = scene->lattice == SOLVER_CENTRES};
+                             .centred = scene->lattice == SOLVER_CENTRES,
+                             .mirrored = scene->wall_motion == SOLVER_WALL_MIRRORED};
     memcpy(box.lower, scene->lower, sizeof box.lower);
     memcpy(box.upper, scene->upper, sizeof box.upper);
     for (int face = 0; face < SOLVER_FACES; face++) {

@@ -54,6 +54,9 @@ enum solver_face_kind {
 /* Where particles lie: on the corners of the cells of a lattice, or in their centres. */
 enum solver_lattice { SOLVER_NODES, SOLVER_CENTRES };
 
+/* How particles of walls move: as the face they stand for, or against those of the body on its other side. */
+enum solver_wall_motion { SOLVER_WALL_RIGID, SOLVER_WALL_MIRRORED };
+
 /* Evolved sets of 000_e9ec29e1bde7947d.txt: the geometric measures that have an equation of their own. */
 enum solver_evolved { SOLVER_PF, SOLVER_PFJ, SOLVER_PFHJ };
 
@@ -166,6 +169,7 @@ struct solver_scene {
     size_t shape_count;        /* 0: one body, the domain */
     struct solver_shape shape[SOLVER_BODIES];
     enum solver_lattice lattice;
+    enum solver_wall_motion wall_motion;
     int wall;                  /* layers of particles beyond a face that holds or moves them, in SOLVER_CENTRES */
     double reference_length;   /* [m]; spacing = reference_length / n */
     int n;                     /* spacings along the reference length */

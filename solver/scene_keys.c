@@ -32,6 +32,8 @@ X("lattice", INDEX, AT(lattice), 0, 0, 0, "nodes centres", "nodes", "one of node
   "particles on the corners of cells, so on faces, or in the centres of cells")                                        \
 X("wall", INTEGER, AT(wall), 1, 16, 0, "", "3", "whole number in [1, 16]",                                             \
   "layers of particles beyond a face that is clamped or moved, where lattice = \"centres\"")                           \
+X("wall_motion", INDEX, AT(wall_motion), 0, 0, 0, "rigid mirrored", "rigid", "one of rigid, mirrored",                  \
+  "particles of walls move as the face, or against those of the body, so that the face has its velocity")             \
 X("reference_length", NUMBER, AT(reference_length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",            \
   "spacing = reference_length / n; default: the first edge")                                                           \
 X("n", RESOLUTION, AT(n), 0, 0, 0, "", NEEDED, "whole number >= 1", "spacings along the reference length")             \

@@ -172,6 +172,36 @@ static void walls_stand_apart(void)
     solver_cloud_free(walled);
 }
 
+/* Across the face, or both faces, that a particle of a wall lies beyond. */
+static void images(void)
+{
+    for (int dim = 1; dim <= 3; dim++) {
+        struct solver_box box = centred_box(dim, 0.0);
+        for (int face = 0; face < 2 * dim; face++) {
+            box.wall[face] = 1 + (uint32_t)face % 3;
+        }
+        struct solver_cloud *cloud = clouds_make(&box);
+        CU_ASSERT_PTR_NOT_NULL_FATAL(cloud);
+        CU_ASSERT_PTR_NULL(cloud->image);
+        solver_cloud_free(cloud);
+        box.mirrored = true;
+        cloud = clouds_make(&box);
+        CU_ASSERT_FATAL(cloud != NULL && cloud->image != NULL && cloud->wall_count > 0);
+        size_t body = cloud->count - cloud->wall_count, wide = (size_t)dim;
+        for (size_t w = 0; w < cloud->wall_count; w++) {
+            CU_ASSERT_FATAL(cloud->image[w] < body);
+            for (size_t i = 0; i < wide; i++) {
+                double X = cloud->X[(body + w) * wide + i];
+                double mirror = X < box.lower[i]   ? 2.0 * box.lower[i] - X
+                                : X > box.upper[i] ? 2.0 * box.upper[i] - X
+                                                   : X;
+                CU_ASSERT_DOUBLE_EQUAL(cloud->X[cloud->image[w] * wide + i], mirror, 1e-14);
+            }
+        }
+        solver_cloud_free(cloud);
+    }
+}
+
 static void refuse(struct solver_box box, const char *expected)
 {
     struct solver_cloud *cloud = NULL;
@@ -193,6 +223,10 @@ static void refusals(void)
     bad = centred_box(2, 0.0);
     bad.wall[4] = 1;
     refuse(bad, "wall");
+    bad.wall[4] = 0;
+    bad.wall[2] = bad.wall[3] = 7;
+    bad.mirrored = true;
+    refuse(bad, "wall: 7 layers beyond a face across Y, and the body has 6");
     bad = clouds_box(2, 5, 0.0, 7);
     bad.wall[1] = 1;
     refuse(bad, "expected lattice = \"centres\"");
@@ -204,6 +238,7 @@ int main(void)
         {"volumes, tags, sites, cells", boxes},
         {"order", order},
         {"walls stand apart", walls_stand_apart},
+        {"images", images},
         {"refusals", refusals},
     };
     return unit_main("solver cloud of centres", tests, sizeof tests / sizeof *tests);
