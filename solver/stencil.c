@@ -73,7 +73,9 @@ bool solver_stencil_reserve(struct solver_stencil *stencil, const struct solver_
         return false;
     }
     memcpy(stencil->V, cloud->V, cloud->count * sizeof *cloud->V);
-    memcpy(stencil->face_point, cloud->face_point, cloud->face_point_count * sizeof *cloud->face_point);
+    if (cloud->face_point_count > 0) { /* else it is NULL, which memcpy must not be given */
+        memcpy(stencil->face_point, cloud->face_point, cloud->face_point_count * sizeof *cloud->face_point);
+    }
     return true;
 }
 
