@@ -33,79 +33,48 @@ void solver_contact_free(struct solver_contact *contact)
 {
     solver_skin_free(&contact->skin);
     free(contact->mass);
-    free(contact->impulse);
     *contact = (struct solver_contact){.law = SOLVER_CONTACT_NONE};
 }
 
-/* The impulse that stops the approach of a and b, over their distance; 0 where they are apart or part. */
-static double stopping(const struct solver_contact *contact, const double *x, size_t lanes, const double *v, size_t a,
-                       size_t b)
+/* The force that stops the approach of a and b, over their distance; 0 where they are apart or part. The predicted law
+ * takes pairs one after the other, each with the accelerations that those before it have left. */
+static double stopping(const struct solver_contact *contact, const double *x, const double *v, size_t lanes, double dt,
+                       const double *v_rate, size_t a, size_t b)
 {
     double square = 0.0;
     double approach = 0.0;
+    double foreseen = contact->law == SOLVER_CONTACT_PREDICTED ? dt : 0.0;
     for (size_t i = 0; i < (size_t)contact->skin.cloud->dim; i++) {
-        double r = x[b * lanes + i] - x[a * lanes + i];
+        size_t at = a * lanes + i;
+        size_t bt = b * lanes + i;
+        double r = x[bt] - x[at];
         square += r * r;
-        approach += r * (v[b * lanes + i] - v[a * lanes + i]);
+        approach += r * (v[bt] - v[at] + foreseen * (v_rate[bt] - v_rate[at]));
     }
     if (square >= contact->distance * contact->distance || approach >= 0.0) {
         return 0.0;
     }
-    return contact->mass[a] * contact->mass[b] / (contact->mass[a] + contact->mass[b]) * approach / square;
+    return contact->mass[a] * contact->mass[b] / (contact->mass[a] + contact->mass[b]) * approach / (square * dt);
 }
 
-static void give(const struct solver_contact *contact, const double *x, size_t lanes, double *v, size_t a, size_t b,
-                 double impulse)
-{
-    for (size_t i = 0; i < (size_t)contact->skin.cloud->dim; i++) {
-        double r = x[b * lanes + i] - x[a * lanes + i];
-        v[a * lanes + i] += impulse * r / contact->mass[a];
-        v[b * lanes + i] -= impulse * r / contact->mass[b];
-    }
-}
-
-static bool make_room(struct solver_contact *contact, size_t pairs, struct solver_error *error)
-{
-    if (pairs <= contact->impulse_room) {
-        return true;
-    }
-    free(contact->impulse);
-    contact->impulse = NULL;
-    contact->impulse_room = 0;
-    if (!solver_alloc((void **)&contact->impulse, 2 * pairs, sizeof(double), "contacts", error)) {
-        return false;
-    }
-    contact->impulse_room = 2 * pairs;
-    return true;
-}
-
-bool solver_contact_apply(struct solver_contact *contact, const double *x, size_t lanes, double *v,
-                          struct solver_error *error)
+bool solver_contact_act(struct solver_contact *contact, const double *x, const double *v, size_t lanes, double dt,
+                        double *v_rate, struct solver_error *error)
 {
     const struct solver_graph *graph = &contact->skin.graph;
-    bool at_once = contact->law == SOLVER_CONTACT_PAIRWISE; /* all impulses from the velocities before any of them */
     if (contact->law == SOLVER_CONTACT_NONE) {
         return true;
     }
-    if (!solver_skin_update(&contact->skin, x, lanes, error) ||
-        (at_once && !make_room(contact, graph->row[graph->count], error))) {
+    if (!solver_skin_update(&contact->skin, x, lanes, error)) {
         return false;
     }
     for (size_t a = 0; a < graph->count; a++) {
         for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
             size_t b = graph->neighbour[ab];
-            double impulse = a < b ? stopping(contact, x, lanes, v, a, b) : 0.0;
-            if (at_once) {
-                contact->impulse[ab] = impulse;
-            } else if (impulse != 0.0) {
-                give(contact, x, lanes, v, a, b, impulse);
-            }
-        }
-    }
-    for (size_t a = 0; at_once && a < graph->count; a++) {
-        for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
-            if (contact->impulse[ab] != 0.0) {
-                give(contact, x, lanes, v, a, graph->neighbour[ab], contact->impulse[ab]);
+            double force = a < b ? stopping(contact, x, v, lanes, dt, v_rate, a, b) : 0.0;
+            for (size_t i = 0; force != 0.0 && i < (size_t)contact->skin.cloud->dim; i++) {
+                double r = x[b * lanes + i] - x[a * lanes + i];
+                v_rate[a * lanes + i] += force * r / contact->mass[a];
+                v_rate[b * lanes + i] -= force * r / contact->mass[b];
             }
         }
     }

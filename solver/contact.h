@@ -1,7 +1,8 @@
 /* Contact between bodies: wherever two particles of different bodies are nearer than a distance and approach one
- * another, an impulse along their line stops it (001_363f711843f01da4.txt eq. 53, 54: the force is that impulse over
- * the step, so it is given once per completed step, whatever the integrator's stages are). Equal and opposite: momentum
- * is kept to round-off. */
+ * another, a force along their line stops it within the step. As printed (001_363f711843f01da4.txt eq. 53, 54) it stops
+ * the velocity at which they approach now, so that what presses them together in this step they are free to do until
+ * the next: pressed bodies go into one another by a velocity that is proportional to the step. Predicted, it stops the
+ * velocity at which they would approach at the end of the step. Equal and opposite: momentum is kept to round-off. */
 #ifndef SOLVER_CONTACT_H
 #define SOLVER_CONTACT_H
 
@@ -13,16 +14,15 @@ struct solver_contact {
     double distance;         /* [m] */
     struct solver_skin skin; /* pairs between bodies */
     double *mass;            /* [count] */
-    double *impulse;         /* [impulse_room] of each pair over their distance [kg/s] */
-    size_t impulse_room;
 };
 
 /* Law and distance as the body's scene says; V: as in struct solver_geometry. */
 bool solver_contact_create(const struct solver_body *body, const double *V, struct solver_contact *contact,
                            struct solver_error *error);
 void solver_contact_free(struct solver_contact *contact);
-/* Gives the impulses to velocities v of particles at x, padded vectors of `lanes`. */
-bool solver_contact_apply(struct solver_contact *contact, const double *x, size_t lanes, double *v,
-                          struct solver_error *error);
+/* Adds the forces at positions x and velocities v to the accelerations v_rate, in a step of size dt [s]; padded vectors
+ * of `lanes`. */
+bool solver_contact_act(struct solver_contact *contact, const double *x, const double *v, size_t lanes, double dt,
+                        double *v_rate, struct solver_error *error);
 
 #endif

@@ -55,7 +55,8 @@ static bool evaluate(struct solver_run *run, double t, double dt, double *power,
     }
     struct solver_geometry geometry = run->scheme->geometry(run->system);
     return solver_faces_load(&run->faces, &run->body, &geometry, t, state->lanes, state->v, state->v_rate, power,
-                             error);
+                             error) &&
+           solver_contact_act(&run->contact, state->x, state->v, state->lanes, dt, state->v_rate, error);
 }
 
 /* One stage's update of the block's entries [first, last). The first stage of every integrator sets out from the state
@@ -154,8 +155,7 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
     run->time += dt;
     run->external += work;
     run->step++;
-    if (solver_run_check(run, error) &&
-        solver_contact_apply(&run->contact, run->state.x, run->state.lanes, run->state.v, error)) {
+    if (solver_run_check(run, error)) {
         return true;
     }
     take_back(run);

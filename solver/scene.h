@@ -63,8 +63,8 @@ enum solver_evolved { SOLVER_PF, SOLVER_PFJ, SOLVER_PFHJ };
 /* What keeps bodies apart (contact.h). */
 enum solver_contact_law {
     SOLVER_CONTACT_NONE,
-    SOLVER_CONTACT_PAIRWISE,  /* all impulses of a step from the velocities before any of them: as printed */
-    SOLVER_CONTACT_SEQUENTIAL /* one after the other: none gives energy, however many a particle takes part in */
+    SOLVER_CONTACT_PRINTED,  /* stops the velocity of approach now */
+    SOLVER_CONTACT_PREDICTED /* stops that at the end of the step */
 };
 
 /* What the updated-Lagrangian scheme is made of (001_363f711843f01da4.txt); every ingredient can be left out. */

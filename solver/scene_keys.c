@@ -78,8 +78,9 @@ X("ulsph.stress_exponent", NUMBER, AT(ulsph.stress_exponent), 0, 32, 0, "", "8",
 X("ulsph.xsph", NUMBER, AT(ulsph.xsph), 0, 1, 0, "", "0.5", "number in [0, 1]",                                        \
   "smoothing of the velocity that carries particles; 0: none")                                                         \
 X("ulsph.delta", NUMBER, AT(ulsph.delta), 0, 1, 0, "", "0.002", "number in [0, 1]", "density diffusion; 0: none")      \
-X("contact.law", INDEX, AT(contact_law), 0, 0, 0, "none pairwise sequential", "none",                                  \
-  "one of none, pairwise, sequential", "impulses between bodies: all at once, as printed, or one after the other")     \
+X("contact.law", INDEX, AT(contact_law), 0, 0, 0, "none printed predicted", "none",                                  \
+  "one of none, printed, predicted",                                                                                   \
+  "forces between bodies that stop the approach of particles: the present one, or that at the end of the step")        \
 X("contact.distance", NUMBER, AT(contact_distance), 0, DBL_MAX, 0, "", "0", "number >= 0 [m]",                         \
   "between particles in touch; 0: the spacing")                                                                        \
 X("integrator", WORD, AT(integrator), 0, 0, 0, "euler tvd-rk2 ssp-rk3 rk4", "rk4",                     \

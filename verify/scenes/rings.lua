@@ -12,6 +12,7 @@ bodies = {
     { shape = "ring", centre = {x, 0}, inner = inner, outer = outer },
 }
 reference_length = outer - inner
+lattice = "centres"
 n = 10 -- a spacing of 1 mm, as in the paper
 
 material = { model = "linear-elastic", E = 2e6, nu = 0.495, rho = 1000 } -- Pa, -, kg/m^3
@@ -21,7 +22,7 @@ initial = { velocity = function(X) return X < 0 and U0 or -U0, 0 end } -- m/s
 
 scheme = "ulsph"
 support, integrator, cfl = 2.4, "tvd-rk2", 0.4
-contact = { law = "pairwise" }
+contact = { law = "predicted" }
 
 view = {
     field = "sigma_xx", range = {-6e4, 6e4}, bands = 12, -- Pa

@@ -9,8 +9,8 @@ parameters = {
 
 dim = 1
 bodies = {
-    { shape = "box", lower = {-L1}, upper = {0} },
-    { shape = "box", lower = {gap}, upper = {gap + L2} },
+    { shape = "box", lower = {0}, upper = {L1} },
+    { shape = "box", lower = {L1 + gap}, upper = {L1 + gap + L2} },
 }
 reference_length = 1
 n = 400
@@ -19,15 +19,15 @@ lattice = "centres" -- half a spacing from either face, so that particles meet a
 
 material = {
     model = "linear-elastic", E = E1, nu = 0, rho = rho1,
-    at = function(X) if X < gap / 2 then return E1, 0, rho1 end return E2, 0, rho2 end,
+    at = function(X) if X < L1 + gap / 2 then return E1, 0, rho1 end return E2, 0, rho2 end,
 }
 t_end = 1.2e-3 -- s
 
-initial = { velocity = function(X) return X < gap / 2 and v1 or v2 end }
+initial = { velocity = function(X) return X < L1 + gap / 2 and v1 or v2 end }
 
 scheme = "ulsph"
 support, integrator, cfl = 2.4, "tvd-rk2", 0.5
-contact = { law = "pairwise" }
+contact = { law = "predicted" }
 
 oracle = { name = "rod-impact" }
-probes = { { name = "left face", X = {0} }, { name = "right face", X = {gap} } }
+probes = { { name = "left face", X = {L1} }, { name = "right face", X = {L1 + gap} } }
