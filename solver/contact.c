@@ -2,6 +2,7 @@
 
 #include "solver/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 bool solver_contact_create(const struct solver_body *body, const double *V, struct solver_contact *contact,
@@ -9,7 +10,7 @@ bool solver_contact_create(const struct solver_body *body, const double *V, stru
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_cloud *cloud = body->cloud;
-    *contact = (struct solver_contact){.law = (enum solver_contact_law)scene->contact_law};
+    *contact = (struct solver_contact){.law = (enum solver_contact_law)scene->contact_law, .begin = NAN, .end = NAN};
     if (contact->law == SOLVER_CONTACT_NONE) {
         return true;
     }
@@ -57,8 +58,8 @@ static double stopping(const struct solver_contact *contact, const double *x, co
     return contact->mass[a] * contact->mass[b] / (contact->mass[a] + contact->mass[b]) * approach / (square * dt);
 }
 
-bool solver_contact_act(struct solver_contact *contact, const double *x, const double *v, size_t lanes, double dt,
-                        double *v_rate, struct solver_error *error)
+bool solver_contact_act(struct solver_contact *contact, const double *x, const double *v, size_t lanes, double t,
+                        double dt, double *v_rate, struct solver_error *error)
 {
     const struct solver_graph *graph = &contact->skin.graph;
     if (contact->law == SOLVER_CONTACT_NONE) {
@@ -71,6 +72,10 @@ bool solver_contact_act(struct solver_contact *contact, const double *x, const d
         for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
             size_t b = graph->neighbour[ab];
             double force = a < b ? stopping(contact, x, v, lanes, dt, v_rate, a, b) : 0.0;
+            if (force != 0.0) {
+                contact->begin = isnan(contact->begin) ? t : contact->begin;
+                contact->end = t;
+            }
             for (size_t i = 0; force != 0.0 && i < (size_t)contact->skin.cloud->dim; i++) {
                 double r = x[b * lanes + i] - x[a * lanes + i];
                 v_rate[a * lanes + i] += force * r / contact->mass[a];

@@ -14,15 +14,16 @@ struct solver_contact {
     double distance;         /* [m] */
     struct solver_skin skin; /* pairs between bodies */
     double *mass;            /* [count] */
+    double begin, end;       /* [s] when it first and last acted; NaN: it never did */
 };
 
 /* Law and distance as the body's scene says; V: as in struct solver_geometry. */
 bool solver_contact_create(const struct solver_body *body, const double *V, struct solver_contact *contact,
                            struct solver_error *error);
 void solver_contact_free(struct solver_contact *contact);
-/* Adds the forces at positions x and velocities v to the accelerations v_rate, in a step of size dt [s]; padded vectors
- * of `lanes`. */
-bool solver_contact_act(struct solver_contact *contact, const double *x, const double *v, size_t lanes, double dt,
-                        double *v_rate, struct solver_error *error);
+/* Adds the forces at positions x, velocities v and time t to the accelerations v_rate, in a step of size dt [s]; padded
+ * vectors of `lanes`. */
+bool solver_contact_act(struct solver_contact *contact, const double *x, const double *v, size_t lanes, double t,
+                        double dt, double *v_rate, struct solver_error *error);
 
 #endif

@@ -49,6 +49,10 @@ struct solver_history {
     double (*probe_X)[3];   /* [probe_count] where the probed particle lies [m] */
     double *probe_u;        /* [count][probe_count][3] displacement [m] */
     double *probe_v;        /* [count][probe_count][3] velocity [m/s] */
+    /* Of the last row alone: */
+    size_t body_count;
+    double body_velocity[SOLVER_BODIES][3]; /* [body_count] of the centre of mass [m/s] */
+    double contact_begin, contact_end;      /* [s] when bodies first and last pressed each other; NaN: never */
 };
 
 /* What a run is made of, for reports. */

@@ -145,6 +145,30 @@ static void add_particle(const struct solver_run *run, size_t a, double V, struc
     totals->strain += V * run->scheme->energy(run->system, a);
 }
 
+/* Velocities of the bodies' centres of mass. */
+static void note_bodies(const struct solver_run *run, const double *V, struct solver_history *history)
+{
+    size_t dim = (size_t)run->cloud->dim;
+    double mass[SOLVER_BODIES] = {0};
+    double momentum[SOLVER_BODIES][3] = {{0}};
+    history->body_count = run->cloud->body != NULL ? run->scene->shape_count : 1;
+    for (size_t a = 0; a < run->shown.count; a++) {
+        size_t body = run->cloud->body != NULL ? run->cloud->body[a] : 0;
+        double m = V[a] * solver_run_density(run, a);
+        mass[body] += m;
+        for (size_t i = 0; i < dim; i++) {
+            momentum[body][i] += m * run->state.v[a * run->state.lanes + i];
+        }
+    }
+    for (size_t body = 0; body < history->body_count; body++) {
+        for (size_t i = 0; i < 3; i++) {
+            history->body_velocity[body][i] = momentum[body][i] / mass[body];
+        }
+    }
+    history->contact_begin = run->contact.begin;
+    history->contact_end = run->contact.end;
+}
+
 static bool make_room(struct solver_run *run, struct solver_error *error)
 {
     struct solver_history *history = &run->history;
@@ -205,6 +229,7 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
             v[axis] = axis < dim ? run->state.v[a * lanes + axis] : 0.0;
         }
     }
+    note_bodies(run, V, history);
     history->totals[history->count++] = totals;
     return true;
 }

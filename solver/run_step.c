@@ -56,7 +56,7 @@ static bool evaluate(struct solver_run *run, double t, double dt, double *power,
     struct solver_geometry geometry = run->scheme->geometry(run->system);
     return solver_faces_load(&run->faces, &run->body, &geometry, t, state->lanes, state->v, state->v_rate, power,
                              error) &&
-           solver_contact_act(&run->contact, state->x, state->v, state->lanes, dt, state->v_rate, error);
+           solver_contact_act(&run->contact, state->x, state->v, state->lanes, t, dt, state->v_rate, error);
 }
 
 /* One stage's update of the block's entries [first, last). The first stage of every integrator sets out from the state

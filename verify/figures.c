@@ -26,6 +26,20 @@ static bool read_probe(const struct solver_scene *scene, const struct solver_opt
     return argument->probe < scene->probe_count;
 }
 
+static bool read_body(const struct solver_scene *scene, const struct solver_option *given,
+                      struct verify_argument *argument)
+{
+    size_t bodies = scene->shape_count > 0 ? scene->shape_count : 1;
+    double k = given->count == 1 ? given->number[0] : 0;
+    *argument = (struct verify_argument){.body = k >= 1 && k <= (double)bodies && k == floor(k) ? (size_t)k - 1 : 0};
+    return k == (double)argument->body + 1;
+}
+
+typedef bool reader(const struct solver_scene *scene, const struct solver_option *given,
+                    struct verify_argument *argument);
+static reader *const readers[] = {
+    [VERIFY_WINDOW] = read_window, [VERIFY_PROBE] = read_probe, [VERIFY_BODY] = read_body};
+
 static const struct solver_option *find_option(const struct solver_figure *figure, const char *name)
 {
     for (size_t i = 0; i < figure->option_count; i++) {
@@ -46,7 +60,7 @@ static bool read_arguments(const struct solver_scene *scene, const struct solver
         const char *name = measure->option[known].name;
         enum verify_option kind = measure->option[known].kind;
         const struct solver_option *given = find_option(figure, name);
-        if (given == NULL || !(kind == VERIFY_WINDOW ? read_window : read_probe)(scene, given, &argument[known])) {
+        if (given == NULL || !readers[kind](scene, given, &argument[known])) {
             return solver_fail(error, SOLVER_BAD_INPUT, WHERE "%s: %s; expected %s", OF(scene, figure), name,
                                given == NULL ? "missing" : "not as it must be", verify_option_spelling(kind));
         }

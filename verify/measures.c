@@ -18,6 +18,13 @@ static const struct verify_measure measures[] = {
      .help = "of a probe's displacement, by a fit of a damped oscillation",
      .option = {{"probe", VERIFY_PROBE}},
      .measure = verify_period},
+    {.name = "contact time",
+     .help = "from the first moment at which bodies press each other to the last",
+     .measure = verify_contact_time},
+    {.name = "body velocity",
+     .help = "of a body's centre of mass at t_end, along x",
+     .option = {{"body", VERIFY_BODY}},
+     .measure = verify_body_velocity},
     {.name = NULL},
 };
 
@@ -38,5 +45,7 @@ const struct verify_measure *verify_measure_find(const char *name)
 
 const char *verify_option_spelling(enum verify_option kind)
 {
-    return kind == VERIFY_WINDOW ? "{ t [s], X0 [m], X1 [m] }, t being one of the snapshots" : "the name of a probe";
+    return kind == VERIFY_WINDOW ? "{ t [s], X0 [m], X1 [m] }, t being one of the snapshots"
+           : kind == VERIFY_BODY ? "{ k }, the k-th of the bodies"
+                                 : "the name of a probe";
 }

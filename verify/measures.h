@@ -18,13 +18,15 @@ struct verify_measuring {
 enum verify_option {
     VERIFY_NO_OPTION,
     VERIFY_WINDOW, /* { t, X0, X1 }: part of a snapshot of a one-dimensional body */
-    VERIFY_PROBE   /* the name of a probe */
+    VERIFY_PROBE,  /* the name of a probe */
+    VERIFY_BODY    /* { k }: the k-th body */
 };
 
 struct verify_argument {
     size_t snapshot; /* which one a window looks at */
     double from, to; /* [m] */
     size_t probe;
+    size_t body;
 };
 
 enum { VERIFY_ARGUMENTS = 4 };
@@ -55,6 +57,10 @@ bool verify_stress_ratio(const struct verify_measuring *in, const struct verify_
                          struct solver_error *error);
 bool verify_stress_ahead(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                          struct solver_error *error);
+bool verify_contact_time(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                         struct solver_error *error);
+bool verify_body_velocity(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                          struct solver_error *error);
 bool verify_period(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                    struct solver_error *error);
 
