@@ -192,7 +192,8 @@ struct solver_scene {
     double contact_distance; /* [m]; 0: the spacing */
     char integrator[SOLVER_NAME];
     double cfl;
-    double t_end; /* [s] */
+    double t_end;        /* [s] */
+    double golden_t_end; /* [s] of the stored record; 0: t_end */
     size_t snapshot_count;
     double snapshot[SOLVER_SNAPSHOTS]; /* [s] increasing, in (0, t_end]: a study's run stops there and is compared */
     int history;                       /* rows of the time history over t_end */

@@ -88,6 +88,8 @@ X("integrator", WORD, AT(integrator), 0, 0, 0, "euler tvd-rk2 ssp-rk3 rk4", "rk4
   "time integrator")                                                                                                   \
 X("cfl", NUMBER, AT(cfl), ABOVE_ZERO, 10, 0, "", "0.8", "number in (0, 10]", "Courant-Friedrichs-Lewy number")         \
 X("t_end", NUMBER, AT(t_end), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [s]", "end of the run")                  \
+X("golden.t_end", NUMBER, AT(golden_t_end), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [s]",                    \
+  "end of the run whose record and picture are stored, at the coarsest of levels; default t_end")                      \
 X("snapshots", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing numbers in (0, t_end] [s]",          \
   "times at which a study compares the state with the oracle, besides t_end")                                          \
 X("history", INTEGER, AT(history), 1, 100000, 0, "", "200", "whole number in [1, 100000]",                             \

@@ -133,7 +133,7 @@ static bool check(const struct verify_options *options, struct solver_scene *sce
     return done;
 }
 
-/* Opens the scene at its coarsest level. */
+/* Opens the scene at its coarsest level, to end where its golden record does. */
 static bool open_coarsest(const struct verify_options *options, struct solver_scene **scene, struct solver_error *error)
 {
     struct verify_options named = *options;
@@ -144,7 +144,11 @@ static bool open_coarsest(const struct verify_options *options, struct solver_sc
     int n = (*scene)->level_count > 0 ? (*scene)->levels[0] : (*scene)->n;
     solver_scene_free(*scene);
     *scene = NULL;
-    return verify_scene_open(&named, n, scene, error);
+    if (!verify_scene_open(&named, n, scene, error)) {
+        return false;
+    }
+    (*scene)->t_end = (*scene)->golden_t_end > 0 ? (*scene)->golden_t_end : (*scene)->t_end;
+    return true;
 }
 
 int verify_command_golden(const struct verify_options *options)

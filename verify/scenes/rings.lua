@@ -14,9 +14,11 @@ bodies = {
 reference_length = outer - inner
 lattice = "centres"
 n = 10 -- a spacing of 1 mm, as in the paper
+levels = {5, 10}
 
 material = { model = "linear-elastic", E = 2e6, nu = 0.495, rho = 1000 } -- Pa, -, kg/m^3
 t_end = 0.04 -- s
+golden = { t_end = 0.002 } -- s: they have met
 
 initial = { velocity = function(X) return X < 0 and U0 or -U0, 0 end } -- m/s
 

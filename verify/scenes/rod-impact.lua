@@ -22,6 +22,7 @@ material = {
     at = function(X) if X < L1 + gap / 2 then return E1, 0, rho1 end return E2, 0, rho2 end,
 }
 t_end = 1.2e-3 -- s
+golden = { t_end = 2e-4 } -- s: they press
 
 initial = { velocity = function(X) return X < L1 + gap / 2 and v1 or v2 end }
 

@@ -19,6 +19,7 @@ else
     material = { model = "neo-hookean", E = 17e6, nu = 0.45, rho = 1100 }
 end
 t_end = 0.15 -- s, two turns and a half
+golden = { t_end = 0.01 } -- s
 
 initial = { velocity = function(X, Y) return -omega * Y, omega * X end }
 
