@@ -64,6 +64,10 @@ gates = {
     { when = { scheme = "upwind" }, probes_y_nrmse = 0.14 },
     { when = { scheme = "upwind", stencil = "sbp4", integrator = "rk4", cfl = 0.8, t_end = 1, n = 20 },
       probes_y_nrmse = 0.056, ["figure body period"] = 1e-3, ["rate figure body period"] = 1 },
+    -- the paper's own system at or below its own figures
+    { when = { scheme = "ulsph", t_end = 1, n = 10 }, probes_y_nrmse = 0.692222 },
+    { when = { scheme = "ulsph", t_end = 1, n = 20 }, probes_y_nrmse = 0.313783 },
+    { when = { scheme = "ulsph", t_end = 1, n = 40 }, probes_y_nrmse = 0.155915 },
 }
 
 view = {
