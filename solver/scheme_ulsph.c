@@ -54,7 +54,8 @@ static void weigh(struct system *system)
     for (size_t a = 0; a < cloud->count; a++) {
         const struct solver_material_constants *of_a = constants_of(system, a);
         system->mass[a] = of_a->rho * cloud->V[a];
-        system->full_mass[a] = system->mass[a] * (double)(1U << (unsigned)__builtin_popcount(cloud->tags[a] & SOLVER_FACE_BITS));
+        system->full_mass[a] =
+            system->mass[a] * (double)(1U << (unsigned)__builtin_popcount(cloud->tags[a] & SOLVER_FACE_BITS));
         system->fastest = fmax(system->fastest, of_a->cp);
     }
 }
