@@ -71,14 +71,14 @@ assay_test(gate-sees-other-errors LABELS gate mustfail COMMAND ${fails} "FAIL: n
 set_tests_properties(gate-sees-other-errors PROPERTIES FIXTURES_REQUIRED "linear-pF;linear-pFJ")
 
 # The wave in a bar of two materials at 1.2 mm: relative L1 error of the stress, largest over six times, at most 2 % being
-# asked at 2.4 mm; coefficients; stress ahead of the front. Measured 3.39e-4, 1.60, 2.27e-5, 2.00, 4.4e-6, 5.4e-3; with
-# sbp2 3.07e-3, 1.30, 7e-7, 1.0e-5, 1.69e-2.
+# asked at 2.4 mm; coefficients; stress ahead of the front. Measured 3.39e-4, 1.60, 2.27e-5, 2.00, 4.4e-6, 6.2e-5; with
+# sbp2 3.07e-3, 1.30, 7e-7, 1.0e-5, 1.97e-3.
 study_gate(bimaterial LABELS gate SCENE bimaterial-wave
   BOUNDS "gate snapshots_sigma_l1 <= 5e-4" "gate rate snapshots_sigma_l1 >= 1.4" "gate figure reflection <= 5e-5"
-  "gate rate figure reflection >= 1.7" "gate figure transmission <= 1e-5" "gate figure ahead of the front <= 0.01")
+  "gate rate figure reflection >= 1.7" "gate figure transmission <= 1e-5" "gate figure ahead of the front <= 2e-4")
 study_gate(bimaterial-sbp2 LABELS gate SCENE bimaterial-wave
   BOUNDS "gate snapshots_sigma_l1 <= 4e-3" "gate rate snapshots_sigma_l1 >= 1.2" "gate figure reflection <= 1e-4"
-  "gate figure transmission <= 1e-4" "gate figure ahead of the front <= 0.02" WORDS --set stencil=sbp2 ${rk2})
+  "gate figure transmission <= 1e-4" "gate figure ahead of the front <= 5e-3" WORDS --set stencil=sbp2 ${rk2})
 # A particle on the interface, as the scene has it, against particles that straddle it (odd n): 1.03e-3 and 1.5e-3.
 assay_test(gate-bimaterial-straddled LABELS gate COMMAND ${gate} gates/bimaterial-straddled "P_l1 <= 1.6e-3" --
   $<TARGET_FILE:assay> ${wave_scene} --levels 417,833)
@@ -100,7 +100,8 @@ assay_test(gate-cable-artificial-stress-does-not-converge LABELS gate mustfail C
   --out gates/cable-artificial-stress)
 study_gate(bimaterial-ulsph LABELS gate SCENE bimaterial-wave
   BOUNDS "gate snapshots_sigma_l1 <= 6e-3" "gate rate snapshots_sigma_l1 >= 1"
-  "gate figure reflection <= 1e-3" "gate figure transmission <= 1e-3" "gate figure ahead of the front <= 0.025" WORDS --set scheme=ulsph)
+  "gate figure reflection <= 1e-3" "gate figure transmission <= 1e-3" "gate figure ahead of the front <= 4e-3"
+  WORDS --set scheme=ulsph)
 
 # The cantilever's tip over four periods at 2 mm, against the plane-strain solution, and its period. Measured 1.76e-2,
 # 1.27e-3; at 1 mm, which the scene's own gates hold (a minute), 6.44e-3, 4.66e-4, order 1.45 of both.

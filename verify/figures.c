@@ -35,10 +35,20 @@ static bool read_body(const struct solver_scene *scene, const struct solver_opti
     return k == (double)argument->body + 1;
 }
 
+static bool read_length(const struct solver_scene *scene, const struct solver_option *given,
+                        struct verify_argument *argument)
+{
+    (void)scene;
+    *argument = (struct verify_argument){.length = given->number[0]};
+    return given->count == 1 && argument->length >= 0;
+}
+
 typedef bool reader(const struct solver_scene *scene, const struct solver_option *given,
                     struct verify_argument *argument);
-static reader *const readers[] = {
-    [VERIFY_WINDOW] = read_window, [VERIFY_PROBE] = read_probe, [VERIFY_BODY] = read_body};
+static reader *const readers[] = {[VERIFY_WINDOW] = read_window,
+                                  [VERIFY_PROBE] = read_probe,
+                                  [VERIFY_BODY] = read_body,
+                                  [VERIFY_LENGTH] = read_length};
 
 static const struct solver_option *find_option(const struct solver_figure *figure, const char *name)
 {

@@ -45,9 +45,9 @@ bool verify_stress_ratio(const struct verify_measuring *in, const struct verify_
     return true;
 }
 
-/* Whether the exact solution has nothing at X yet and the nearest front on one side is coming: what is zero to
- * round-off beside the peak is nothing. */
-static bool is_ahead(const struct verify_truth *truth, double X, double t, double peak,
+/* Whether the exact solution has nothing at X yet and the nearest front on one side is coming, farther away than
+ * `beyond`: what is zero to round-off beside the peak is nothing. */
+static bool is_ahead(const struct verify_truth *truth, double X, double t, double peak, double beyond,
                      const struct oracle_front *front, size_t count)
 {
     const double place[3] = {X, 0, 0};
@@ -60,13 +60,14 @@ static bool is_ahead(const struct verify_truth *truth, double X, double t, doubl
             right = front[i].X >= X && right == NULL ? &front[i] : right;
         }
     }
+    bool clear = (left == NULL || X - left->X > beyond) && (right == NULL || right->X - X > beyond);
     bool coming = (left != NULL && left->speed > 0) || (right != NULL && right->speed < 0);
-    return coming && fabs(state.P[0]) <= 1e-12 * peak && state.u[0] == 0 && state.v[0] == 0;
+    return coming && clear && fabs(state.P[0]) <= 1e-12 * peak && state.u[0] == 0 && state.v[0] == 0;
 }
 
 /* Takes the largest stress ahead of the fronts, over the snapshot's exact peak, into *largest, which stays NaN as long
  * as no particle is ahead. False if a stress is none. */
-static bool take_ahead(const struct verify_truth *truth, const struct verify_snapshot *snapshot,
+static bool take_ahead(const struct verify_truth *truth, const struct verify_snapshot *snapshot, double beyond,
                        struct oracle_front *front, double *largest)
 {
     size_t count = truth->kind->fronts(truth->oracle, snapshot->time, front);
@@ -76,7 +77,7 @@ static bool take_ahead(const struct verify_truth *truth, const struct verify_sna
     }
     for (size_t i = 0; count != ORACLE_TOO_MANY_FRONTS && i < snapshot->count; i++) {
         const struct verify_point *point = &snapshot->point[i];
-        if (is_ahead(truth, point->X, snapshot->time, peak, front, count)) {
+        if (is_ahead(truth, point->X, snapshot->time, peak, beyond, front, count)) {
             *largest = fmax(*largest, fabs(point->computed) / peak);
             if (isnan(point->computed)) {
                 return false;
@@ -89,7 +90,6 @@ static bool take_ahead(const struct verify_truth *truth, const struct verify_sna
 bool verify_stress_ahead(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                          struct solver_error *error)
 {
-    (void)argument;
     struct oracle_front *front = calloc(ORACLE_FRONTS, sizeof *front);
     if (front == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the fronts of the oracle");
@@ -97,7 +97,7 @@ bool verify_stress_ahead(const struct verify_measuring *in, const struct verify_
     double largest = NAN;
     bool all = true;
     for (size_t i = 0; i < in->level->snapshot_count; i++) {
-        all = take_ahead(in->truth, &in->level->snapshot[i], front, &largest) && all;
+        all = take_ahead(in->truth, &in->level->snapshot[i], argument[0].length, front, &largest) && all;
     }
     *value = all ? largest : NAN;
     free(front);

@@ -9,7 +9,8 @@ static const struct verify_measure measures[] = {
      .in_1d_only = true,
      .measure = verify_stress_ratio},
     {.name = "stress ahead",
-     .help = "largest stress where no front has arrived yet over the exact peak, in all snapshots",
+     .help = "largest stress, over the exact peak and in all snapshots, farther ahead of the fronts than `beyond`",
+     .option = {{"beyond", VERIFY_LENGTH}},
      .in_1d_only = true,
      .none_is_exact = true,
      .needs_fronts = true,
@@ -45,7 +46,8 @@ const struct verify_measure *verify_measure_find(const char *name)
 
 const char *verify_option_spelling(enum verify_option kind)
 {
-    return kind == VERIFY_WINDOW ? "{ t [s], X0 [m], X1 [m] }, t being one of the snapshots"
-           : kind == VERIFY_BODY ? "{ k }, the k-th of the bodies"
-                                 : "the name of a probe";
+    return kind == VERIFY_WINDOW   ? "{ t [s], X0 [m], X1 [m] }, t being one of the snapshots"
+           : kind == VERIFY_BODY   ? "{ k }, the k-th of the bodies"
+           : kind == VERIFY_LENGTH ? "{ d }, a length [m]"
+                                   : "the name of a probe";
 }

@@ -19,7 +19,8 @@ enum verify_option {
     VERIFY_NO_OPTION,
     VERIFY_WINDOW, /* { t, X0, X1 }: part of a snapshot of a one-dimensional body */
     VERIFY_PROBE,  /* the name of a probe */
-    VERIFY_BODY    /* { k }: the k-th body */
+    VERIFY_BODY,   /* { k }: the k-th body */
+    VERIFY_LENGTH  /* { d }: a length [m] */
 };
 
 struct verify_argument {
@@ -27,6 +28,7 @@ struct verify_argument {
     double from, to; /* [m] */
     size_t probe;
     size_t body;
+    double length; /* [m] */
 };
 
 enum { VERIFY_ARGUMENTS = 4 };

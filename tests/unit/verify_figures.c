@@ -204,7 +204,10 @@ static void refusals(void)
     scene->dim = 2;
     refused("figures.reflection: the measure \"stress ratio\" is for dim = 1, the scene has dim = 2");
     figure = first_figure();
-    *figure = (struct solver_figure){.name = "noise", .measure = "stress ahead"};
+    *figure = (struct solver_figure){.name = "noise", .measure = "stress ahead", .option_count = 1};
+    figure->option[0] = (struct solver_option){.name = "beyond", .number = {-1}, .count = 1};
+    refused("figures.noise: beyond: not as it must be; expected { d }, a length [m]");
+    figure->option[0].number[0] = 0.01;
     CU_ASSERT(verify_figures_check(scene, &truth, &error));
     scene->snapshot_count = 0;
     refused("figures.noise: the measure \"stress ahead\" needs snapshots");

@@ -51,20 +51,21 @@ local incident = {1.5e-4, 0, L1} -- s, m, m
 figures = {
     reflection = { measure = "stress ratio", of = {3e-4, 0, L1}, over = incident },
     transmission = { measure = "stress ratio", of = {3e-4, L1, L1 + L2}, over = incident },
-    ["ahead of the front"] = { measure = "stress ahead" },
+    -- A kink is smeared over a few spacings: 12.5 mm are five of 2.4 mm, and 2 % of the pulse.
+    ["ahead of the front"] = { measure = "stress ahead", beyond = {0.0125} },
 }
 
 -- Relative L1 error of the stress at 1.2 mm, the largest over the snapshots, and its order from 2.4 mm; the same of the
--- coefficients; and the largest stress, over the peak, where nothing has arrived yet.
+-- coefficients; and the largest stress, over the peak, more than 12.5 mm ahead of the fronts.
 gates = {
     { when = { scheme = "upwind", stencil = "sbp4", integrator = "rk4", cfl = 0.8 },
-      snapshots_sigma_l1 = 5e-4, ["rate snapshots_sigma_l1"] = 1.4, ["figure ahead of the front"] = 0.01,
+      snapshots_sigma_l1 = 5e-4, ["rate snapshots_sigma_l1"] = 1.4, ["figure ahead of the front"] = 2e-4,
       ["figure reflection"] = 5e-5, ["rate figure reflection"] = 1.7, ["figure transmission"] = 1e-5 },
     { when = { scheme = "upwind", stencil = "sbp2", integrator = "tvd-rk2", cfl = 0.3 },
-      snapshots_sigma_l1 = 4e-3, ["rate snapshots_sigma_l1"] = 1.2, ["figure ahead of the front"] = 0.02,
+      snapshots_sigma_l1 = 4e-3, ["rate snapshots_sigma_l1"] = 1.2, ["figure ahead of the front"] = 5e-3,
       ["figure reflection"] = 1e-4, ["figure transmission"] = 1e-4 },
     { when = { scheme = "ulsph", integrator = "tvd-rk2", cfl = 0.5 },
-      snapshots_sigma_l1 = 6e-3, ["rate snapshots_sigma_l1"] = 1, ["figure ahead of the front"] = 0.025,
+      snapshots_sigma_l1 = 6e-3, ["rate snapshots_sigma_l1"] = 1, ["figure ahead of the front"] = 4e-3,
       ["figure reflection"] = 1e-3, ["figure transmission"] = 1e-3 },
 }
 
