@@ -89,12 +89,17 @@ enum solver_ulsph_repulsion {
     SOLVER_ULSPH_PRINTED, /* all of it (eq. 17), at the initial spacing too: it does not vanish as n grows */
     SOLVER_ULSPH_EXCESS   /* what exceeds its value at the initial spacing: between particles that came closer */
 };
+/* What weighs a particle on a face of the body in kernel sums. */
+enum solver_ulsph_cells {
+    SOLVER_ULSPH_WHOLE, /* the cell it would have within the body */
+    SOLVER_ULSPH_CUT    /* its volume, as printed for particles that lie on no face */
+};
 struct solver_ulsph_terms {
-    int gradient, dissipation, tension, repulsion; /* of the enums above */
-    double viscosity;                              /* alpha of AV */
-    double stress_factor, stress_exponent;         /* epsilon and n of AS */
-    double xsph;                                   /* epsilon of the transport velocity (eq. 14); 0: none */
-    double delta;                                  /* of the density diffusion (eq. 33); 0: none */
+    int gradient, dissipation, tension, repulsion, cells; /* of the enums above */
+    double viscosity;                                     /* alpha of AV */
+    double stress_factor, stress_exponent;                /* epsilon and n of AS */
+    double xsph;                                          /* epsilon of the transport velocity (eq. 14); 0: none */
+    double delta;                                         /* of the density diffusion (eq. 33); 0: none */
 };
 
 struct solver_named {

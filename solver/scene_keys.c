@@ -63,6 +63,8 @@ X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", 
   "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
 X("ulsph.gradient", INDEX, AT(ulsph.gradient), 0, 0, 0, "corrected plain", "corrected", "one of corrected, plain",       \
   "gradients with the corrective matrix L, or of the kernel alone")                                                    \
+X("ulsph.cells", INDEX, AT(ulsph.cells), 0, 0, 0, "whole cut", "whole", "one of whole, cut",                             \
+  "weight in kernel sums of a particle on a face: a whole cell, or its part within the body")                          \
 X("ulsph.dissipation", INDEX, AT(ulsph.dissipation), 0, 0, 0, "riemann viscosity none", "riemann",                     \
   "one of riemann, viscosity, none", "second-order Riemann term (R) or artificial viscosity (AV)")                     \
 X("ulsph.viscosity", NUMBER, AT(ulsph.viscosity), 0, 10, 0, "", "1", "number in [0, 10]",                              \
