@@ -1,9 +1,9 @@
 /* Updated-Lagrangian SPH, delta-ULSPH-R-TIC with every ingredient switchable (001_363f711843f01da4.txt), as a scheme of
  * the table: its neighbours, its terms and its fields. The loops are in ulsph_dim.c.
  *
- * On a lattice with particles on the faces, whose volumes are cut there, kernel sums are weighted by whole cells all the
- * same: weighted by the cut volumes (ulsph.cells) they make the period of the cantilever 2.6 % too long at ten particles
- * across, by whole cells 0.4 %. */
+ * On a lattice with particles on the faces, whose volumes are cut there, kernel sums are weighted by whole cells all
+ * the same: weighted by the cut volumes (ulsph.cells) they make the period of the cantilever 2.6 % too long at ten
+ * particles across, by whole cells 0.4 %. */
 #include "solver/faces.h"
 #include "solver/memory.h"
 #include "solver/pieces.h"

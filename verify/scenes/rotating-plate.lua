@@ -15,7 +15,7 @@ if scheme == "ulsph" then
     support, integrator, cfl = 2.4, "tvd-rk2", 0.4
     material = { model = "linear-elastic", E = 17e6, nu = 0.45, rho = 1100 } -- Pa, -, kg/m^3; in rates
 else
-    evolved, stencil, integrator, cfl = "pFHJ", "sbp2", "rk4", 0.5
+    evolved, stencil, integrator, cfl = "pFHJ", "sbp4", "rk4", 0.5
     material = { model = "neo-hookean", E = 17e6, nu = 0.45, rho = 1100 }
 end
 t_end = 0.15 -- s, two turns and a half
