@@ -74,8 +74,8 @@ static void recorded(void)
 static void meeting(void)
 {
     /* without the control of tension, whose forces between a particle inside and one at the surface differ (eq. 51) */
-    static const char *const overrides[2][3] = {{"contact.law=pairwise", "ulsph.tension=none", "threads=1"},
-                                                {"contact.law=pairwise", "ulsph.tension=none", "threads=3"}};
+    static const char *const overrides[2][3] = {{"contact.law=predicted", "ulsph.tension=none", "threads=1"},
+                                                {"contact.law=predicted", "ulsph.tension=none", "threads=3"}};
     struct sample sample = begin(overrides[0], 3), again = begin(overrides[1], 3);
     advance(&sample, 200);
     advance(&again, 200);
