@@ -94,10 +94,7 @@ static bool measure(struct work *work, struct solver_run *run, struct solver_err
 static bool keep_finest(struct work *work, struct solver_run *run, struct solver_error *error)
 {
     const struct solver_scene *scene = work->scene;
-    const struct solver_history *history = solver_run_history(run);
-    work->study.first = history->totals[0];
-    work->study.last = history->totals[history->count - 1];
-    return verify_study_trace(&work->study, history, error) &&
+    return verify_study_history(&work->study, solver_run_history(run), error) &&
            verify_record(scene, run, work->folder, scene->name, work->options->line, work->study.record, error) &&
            draw(work, error);
 }

@@ -32,7 +32,11 @@ bool verify_html(FILE *file, const struct verify_study *study, const size_t *sho
 /* The convergence plot of one error as an SVG element: measured and published values over the spacing, both axes
  * logarithmic, with lines of whole orders for comparison. */
 void verify_plot(FILE *file, const struct verify_study *study, size_t error);
-/* The displacement of a probe over time as an SVG element, computed and exact. */
+/* The displacement of a probe over time as an SVG element, computed over exact. */
 void verify_plot_trace(FILE *file, const struct verify_study *study, const struct verify_trace *trace);
+/* Kinetic, strain and total energy over time at the finest level, computed over exact. */
+bool verify_plot_energy(FILE *file, const struct verify_study *study, struct solver_error *error);
+/* The stress along a one-dimensional body at the snapshots, with its heading; nothing where there is none. */
+bool verify_plot_profiles(FILE *file, const struct verify_study *study, struct solver_error *error);
 
 #endif

@@ -3,6 +3,7 @@
 #include "solver/scheme.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 double verify_order(double e1, double h1, double e2, double h2)
@@ -35,8 +36,16 @@ void verify_study_add(struct verify_study *study, const struct verify_level *lev
     study->level_count++;
 }
 
-bool verify_study_trace(struct verify_study *study, const struct solver_history *history, struct solver_error *error)
+bool verify_study_history(struct verify_study *study, const struct solver_history *history, struct solver_error *error)
 {
+    study->totals = calloc(history->count, sizeof *study->totals);
+    if (study->totals == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for %zu rows of history", history->count);
+    }
+    memcpy(study->totals, history->totals, history->count * sizeof *study->totals);
+    study->total_count = history->count;
+    study->first = history->totals[0];
+    study->last = history->totals[history->count - 1];
     for (size_t probe = 0; probe < history->probe_count; probe++) {
         if (!verify_trace_take(history, probe, &study->trace[study->trace_count], error)) {
             return false;
@@ -54,7 +63,9 @@ void verify_study_free(struct verify_study *study)
     for (size_t i = 0; i < study->level_count; i++) {
         verify_level_free(&study->level[i]);
     }
-    study->trace_count = study->level_count = 0;
+    free(study->totals);
+    study->totals = NULL;
+    study->trace_count = study->level_count = study->total_count = 0;
 }
 
 bool verify_study_judge(struct verify_study *study, struct solver_error *error)

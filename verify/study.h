@@ -16,7 +16,10 @@ struct verify_study {
     const struct verify_truth *truth;
     size_t level_count;
     struct verify_level level[SOLVER_LEVELS];
-    struct solver_totals first, last; /* conserved quantities at the finest level, at the start and the end */
+    /* Conserved quantities at the finest level: over time, at the start and at the end. */
+    size_t total_count;
+    struct solver_totals *totals; /* [total_count] */
+    struct solver_totals first, last;
     struct verify_gates gates;
     size_t trace_count;
     struct verify_trace trace[SOLVER_PROBES]; /* at the finest level */
@@ -32,8 +35,9 @@ double verify_order(double e1, double h1, double e2, double h2);
  * observed orders. */
 void verify_study_add(struct verify_study *study, const struct verify_level *level);
 
-/* Keeps the traces of a run's probes; verify_study_free gives them back, and the levels' snapshots. */
-bool verify_study_trace(struct verify_study *study, const struct solver_history *history, struct solver_error *error);
+/* Keeps a run's history, its totals and the traces of its probes; verify_study_free gives them back, and the levels'
+ * snapshots. */
+bool verify_study_history(struct verify_study *study, const struct solver_history *history, struct solver_error *error);
 void verify_study_free(struct verify_study *study);
 
 /* Judges the scene's gates on the finest level. */
