@@ -108,8 +108,9 @@ assay_test(render-another-field LABELS image COMMAND sh -c
    $<TARGET_FILE:assay> render test-out/field/swinging-cube.vtkhdf -o test-out/field/u.png --set view.field=displacement_x &&
    ! cmp -s test-out/field/swinging-cube.png test-out/field/u.png")
 
-assay_test(report-html LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_html.py ${assay}
-  test-out/report-html)
+set(html ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_html.py ${assay})
+assay_test(report-html LABELS gate COMMAND ${html} test-out/report-html 0 swinging-cube --levels 8,12)
+assay_test(report-html-profiles LABELS gate COMMAND ${html} test-out/report-profiles 6 bimaterial-wave --levels 100,200)
 
 # Of a configuration that no gate is meant for, the report says so, and that published figures are of another problem.
 assay_test(general-bounds-are-named LABELS gate COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 0

@@ -53,60 +53,75 @@ static void draw_fronts(FILE *file, const struct verify_study *study, const stru
     }
 }
 
-static void draw_error(FILE *file, const struct verify_chart *chart, const char *class,
-                       const struct verify_snapshot *snapshot, double *room)
-{
-    for (size_t a = 0; a < snapshot->count; a++) {
-        room[a] = snapshot->point[a].X;
-        room[snapshot->count + a] = snapshot->point[a].computed - snapshot->point[a].exact;
-    }
-    verify_chart_line(file, chart, class, snapshot->count, 1, room, room + snapshot->count);
-}
+/* Memory that every panel needs. */
+struct room {
+    double *x, *y;              /* [particles of the finest level] */
+    struct oracle_front *front; /* [ORACLE_FRONTS] */
+};
 
-static void draw_panel(FILE *file, const struct verify_study *study, const struct shared *all, size_t s, double *room,
-                       struct oracle_front *front)
+static void draw_stresses(FILE *file, const struct verify_study *study, const struct shared *all, size_t s,
+                          const struct room *room)
 {
     enum { STRIDE = sizeof(struct verify_point) / sizeof(double) };
+    const struct verify_chart chart = {LEFT, RIGHT, TOP, MIDDLE, all->X, all->stress};
     const struct verify_snapshot *finest = &study->level[study->level_count - 1].snapshot[s];
-    const struct verify_chart above = {LEFT, RIGHT, TOP, MIDDLE, all->X, all->stress};
-    const struct verify_chart below = {LEFT, RIGHT, BELOW, BOTTOM, all->X, all->error};
+    verify_chart_frame(file, &chart, false);
+    draw_fronts(file, study, &chart, finest->time, room->front);
+    verify_chart_line(file, &chart, "exact", finest->count, STRIDE, &finest->point[0].X, &finest->point[0].exact);
+    for (size_t i = first_drawn(study); i < study->level_count; i++) {
+        const struct verify_snapshot *snapshot = &study->level[i].snapshot[s];
+        verify_chart_line(file, &chart, style_of[study->level_count - 1 - i], snapshot->count, STRIDE,
+                          &snapshot->point[0].X, &snapshot->point[0].computed);
+    }
+}
+
+static void draw_errors(FILE *file, const struct verify_study *study, const struct shared *all, size_t s,
+                        const struct room *room)
+{
+    const struct verify_chart chart = {LEFT, RIGHT, BELOW, BOTTOM, all->X, all->error};
+    verify_chart_frame(file, &chart, true);
+    draw_fronts(file, study, &chart, study->level[study->level_count - 1].snapshot[s].time, room->front);
+    for (size_t i = first_drawn(study); i < study->level_count; i++) {
+        const struct verify_snapshot *snapshot = &study->level[i].snapshot[s];
+        for (size_t a = 0; a < snapshot->count; a++) {
+            room->x[a] = snapshot->point[a].X;
+            room->y[a] = snapshot->point[a].computed - snapshot->point[a].exact;
+        }
+        verify_chart_line(file, &chart, style_of[study->level_count - 1 - i], snapshot->count, 1, room->x, room->y);
+    }
+}
+
+static void draw_panel(FILE *file, const struct verify_study *study, const struct shared *all, size_t s,
+                       const struct room *room)
+{
+    double t = study->level[study->level_count - 1].snapshot[s].time;
     struct verify_axis time = verify_axis("t", "s");
     verify_axis_hold(&time, 0);
-    verify_axis_hold(&time, finest->time);
+    verify_axis_hold(&time, t);
     (void)verify_axis_close(&time, 0);
     (void)fprintf(file, "<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"stress along the body\">\n", WIDTH,
                   HEIGHT);
-    (void)fprintf(file, "<text class=\"title\" x=\"%d\" y=\"%d\">t = %.6g %ss</text>\n", LEFT, TOP - 8,
-                  finest->time / time.per, time.prefix);
-    verify_chart_frame(file, &above, false);
-    verify_chart_frame(file, &below, true);
-    draw_fronts(file, study, &above, finest->time, front);
-    draw_fronts(file, study, &below, finest->time, front);
-    verify_chart_line(file, &above, "exact", finest->count, STRIDE, &finest->point[0].X, &finest->point[0].exact);
-    for (size_t i = first_drawn(study); i < study->level_count; i++) {
-        const struct verify_snapshot *snapshot = &study->level[i].snapshot[s];
-        const char *class = style_of[study->level_count - 1 - i];
-        verify_chart_line(file, &above, class, snapshot->count, STRIDE, &snapshot->point[0].X,
-                          &snapshot->point[0].computed);
-        draw_error(file, &below, class, snapshot, room);
-    }
+    (void)fprintf(file, "<text class=\"title\" x=\"%d\" y=\"%d\">t = %.6g %ss</text>\n", LEFT, TOP - 8, t / time.per,
+                  time.prefix);
+    draw_stresses(file, study, all, s, room);
+    draw_errors(file, study, all, s, room);
     (void)fprintf(file, "</svg>\n");
 }
 
 /* Which line is which, once for all panels. */
 static void draw_key(FILE *file, const struct verify_study *study)
 {
-    (void)fprintf(file,
-                  "<p class=\"key\"><svg viewBox=\"0 0 30 10\"><polyline class=\"exact\" points=\"1,5 29,5\"/></svg>"
-                  "exact");
+    (void)fprintf(
+        file, "<p class=\"key\"><svg viewBox=\"0 0 30 10\"><polyline class=\"key exact\" points=\"1,5 29,5\"/></svg>"
+              "exact");
     for (size_t i = first_drawn(study); i < study->level_count; i++) {
         struct verify_axis spacing = verify_axis("h", "m");
         verify_axis_hold(&spacing, 0);
         verify_axis_hold(&spacing, study->level[i].facts.spacing);
         (void)verify_axis_close(&spacing, 0);
-        (void)fprintf(file, "<svg viewBox=\"0 0 30 10\"><polyline class=\"%s\" points=\"1,5 29,5\"/></svg>h = %.4g %sm",
-                      style_of[study->level_count - 1 - i], study->level[i].facts.spacing / spacing.per,
-                      spacing.prefix);
+        (void)fprintf(
+            file, "<svg viewBox=\"0 0 30 10\"><polyline class=\"key %s\" points=\"1,5 29,5\"/></svg>h = %.4g %sm",
+            style_of[study->level_count - 1 - i], study->level[i].facts.spacing / spacing.per, spacing.prefix);
     }
     if (study->truth->kind->fronts != NULL) {
         (void)fprintf(file, "<svg viewBox=\"0 0 30 10\"><line class=\"front\" x1=\"15\" y1=\"0\" x2=\"15\" y2=\"10\"/>"
@@ -123,23 +138,22 @@ bool verify_plot_profiles(FILE *file, const struct verify_study *study, struct s
     if (finest->snapshot_count == 0 || finest->snapshot[0].count == 0 || !share(study, &all)) {
         return true;
     }
-    double *room = calloc(finest->snapshot[0].count, 2 * sizeof *room);
-    struct oracle_front *front = calloc(ORACLE_FRONTS, sizeof *front);
-    if (room == NULL || front == NULL) {
-        free(room);
-        free(front);
-        return solver_fail(error, SOLVER_NO_MEMORY, "no memory to draw the profiles of %zu particles",
-                           finest->snapshot[0].count);
+    size_t count = finest->snapshot[0].count;
+    const struct room room = {calloc(count, sizeof(double)), calloc(count, sizeof(double)),
+                              calloc(ORACLE_FRONTS, sizeof(struct oracle_front))};
+    bool done = room.x != NULL && room.y != NULL && room.front != NULL;
+    if (done) {
+        (void)fprintf(file, "<h2>Stress along the body</h2>\n");
+        draw_key(file, study);
+        (void)fprintf(file, "<div class=\"panels\">\n");
+        for (size_t s = 0; s < finest->snapshot_count; s++) {
+            draw_panel(file, study, &all, s, &room);
+        }
+        (void)fprintf(file, "</div>\n<p class=\"note\">Error: computed less exact stress, particle by particle. All "
+                            "panels share their axes.</p>\n");
     }
-    (void)fprintf(file, "<h2>Stress along the body</h2>\n");
-    draw_key(file, study);
-    (void)fprintf(file, "<div class=\"panels\">\n");
-    for (size_t s = 0; s < finest->snapshot_count; s++) {
-        draw_panel(file, study, &all, s, room, front);
-    }
-    (void)fprintf(file, "</div>\n<p class=\"note\">Error: computed less exact stress, particle by particle. All panels "
-                        "share their axes.</p>\n");
-    free(room);
-    free(front);
-    return true;
+    free(room.x);
+    free(room.y);
+    free(room.front);
+    return done || solver_fail(error, SOLVER_NO_MEMORY, "no memory to draw the profiles of %zu particles", count);
 }

@@ -22,8 +22,8 @@ static void exact_times(size_t count, const double *time, double out[EXACT])
 
 static void key(FILE *file, double x, const char *class, const char *text)
 {
-    (void)fprintf(file, "<polyline class=\"%s\" points=\"%.1f,%d %.1f,%d\"/><text x=\"%.1f\" y=\"%d\">%s</text>", class,
-                  x, TOP - 14, x + 24, TOP - 14, x + 30, TOP - 10, text);
+    (void)fprintf(file, "<polyline class=\"key %s\" points=\"%.1f,%d %.1f,%d\"/><text x=\"%.1f\" y=\"%d\">%s</text>",
+                  class, x, TOP - 14, x + 24, TOP - 14, x + 30, TOP - 10, text);
 }
 
 /* Largest displacement of any probe: what is round-off beside it is no movement. */
