@@ -41,7 +41,7 @@ gates = {
     { when = { scheme = "upwind", stencil = "sbp4", integrator = "rk4", cfl = 0.8, t_end = 1 },
       probes = 0.008, ["rate probes"] = 1.4, ["figure period"] = 6e-4 },
     { when = { scheme = "ulsph", ["ulsph.tension"] = "none", integrator = "tvd-rk2", cfl = 0.4, t_end = 0.5, n = 20 },
-      probes = 0.009, ["rate probes"] = 1.7, ["figure period"] = 3e-3, ["rate figure period"] = 1.7 },
+      probes = 0.011, ["rate probes"] = 1.5, ["figure period"] = 1.2e-3, ["rate figure period"] = 1.7 },
 }
 
 view = {
