@@ -32,8 +32,7 @@ static bool bounds(const struct solver_points *points, double lower[3], double u
         }
         if (lost < points->count || (points->count > 0 && !isfinite(high - low))) {
             return solver_fail(error, SOLVER_BROKE_DOWN,
-                               "particle %zu: its position is not finite, or beyond all bounds: the run is unstable. "
-                               "Try a smaller cfl",
+                               "particle %zu: its position is not finite, or beyond all bounds",
                                lost < points->count ? lost : 0);
         }
         lower[axis] = low;

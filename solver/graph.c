@@ -2,6 +2,7 @@
 
 #include "solver/memory.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,14 +50,18 @@ static bool paired(const struct search *search, size_t a, size_t b)
     return square < search->square && b != a && together == (search->which == SOLVER_PAIRS_WITHIN);
 }
 
-/* Neighbours of a into `out` if it is not NULL; returns their number. */
+/* The widest support has 268 neighbours on a lattice in 3D; a lattice pressed together to a third of its volume has not
+ * as many as this. */
+enum { MOST_NEIGHBOURS = 1024 };
+
+/* Neighbours of a into `out` if it is not NULL; returns their number, or one that is too large. */
 static size_t neighbours(const struct search *search, size_t a, uint32_t *out)
 {
     const struct solver_cells *cells = search->cells;
     uint32_t near[27];
     size_t cell_count = solver_cells_near(cells, a, near);
     size_t found = 0;
-    for (size_t c = 0; c < cell_count; c++) {
+    for (size_t c = 0; c < cell_count && found <= MOST_NEIGHBOURS; c++) {
         for (size_t i = cells->start[near[c]]; i < cells->start[near[c] + 1]; i++) {
             uint32_t b = cells->particle[i];
             if (paired(search, a, b)) {
@@ -102,6 +107,12 @@ static bool list_pairs(struct solver_graph *graph, const struct search *search, 
         graph->row[a + 1] = neighbours(search, a, NULL);
     }
     for (size_t a = 0; a < count; a++) {
+        if (graph->row[a + 1] > MOST_NEIGHBOURS) {
+            return solver_fail(error, SOLVER_BROKE_DOWN,
+                               "particle %zu: more than %d others are nearer than %g m: the particles have collapsed "
+                               "onto one another",
+                               a, MOST_NEIGHBOURS, sqrt(search->square));
+        }
         graph->row[a + 1] += graph->row[a];
     }
     if (!make_room((void **)&graph->neighbour, &graph->neighbour_room, graph->row[count], sizeof *graph->neighbour,

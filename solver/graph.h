@@ -21,8 +21,8 @@ struct solver_graph {
 
 /* Makes *graph, zeroed before its first use, list all such pairs of points nearer than `radius` [m]. Symmetric: a lists
  * b whenever b lists a. Work and memory grow with points and pairs, however far apart the points are, and nothing is
- * allocated where the last update had as many. SOLVER_BROKE_DOWN where a position is not finite; after a failure the
- * graph is empty. */
+ * allocated where the last update had as many. SOLVER_BROKE_DOWN where a position is not finite, or where so many
+ * points lie together that pairs would grow as the square of points; after a failure the graph is empty. */
 bool solver_graph_update(struct solver_graph *graph, const struct solver_points *points, enum solver_pairs which,
                          double radius, struct solver_error *error);
 /* The same for a cloud at rest, into a new graph that keeps no cells. */

@@ -132,13 +132,21 @@ static void take_back(struct solver_run *run)
     solver_run_refresh(run);
 }
 
-static bool step(struct solver_run *run, double dt, struct solver_error *error)
+/* Puts the step before what broke down within it, and what to try behind. */
+static void say_when(const struct solver_run *run, double dt, struct solver_error *error)
+{
+    if (error->code == SOLVER_BROKE_DOWN) {
+        struct solver_error found = *error;
+        (void)solver_fail(error, SOLVER_BROKE_DOWN, "step %zu, t = %.6g s: %s. Try %s", run->step + 1, run->time + dt,
+                          found.text, run->scheme->advice);
+    }
+}
+
+/* All stages of a step; *work becomes that of the loads. After a failure the state is that of the start. */
+static bool stages(struct solver_run *run, double dt, double *work, struct solver_error *error)
 {
     const struct solver_integrator *integrator = run->integrator;
-    double work = 0.0;
-    if (run->scheme->prepare != NULL && !run->scheme->prepare(run->system, dt, error)) {
-        return false;
-    }
+    *work = 0.0;
     for (int s = 0; s < integrator->stages; s++) {
         const struct solver_stage *stage = &integrator->stage[s];
         double next = s + 1 < integrator->stages ? integrator->stage[s + 1].time : 1.0;
@@ -150,17 +158,30 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
             }
             return false;
         }
-        work += stage->weight * dt * power;
+        *work += stage->weight * dt * power;
+    }
+    return true;
+}
+
+static bool step(struct solver_run *run, double dt, struct solver_error *error)
+{
+    double before = run->time;
+    double work;
+    if (run->scheme->prepare != NULL && !run->scheme->prepare(run->system, dt, error)) {
+        return false;
+    }
+    if (!stages(run, dt, &work, error)) {
+        say_when(run, dt, error);
+        return false;
     }
     run->time += dt;
-    run->external += work;
     run->step++;
     if (solver_run_check(run, error)) {
+        run->external += work;
         return true;
     }
     take_back(run);
-    run->time -= dt;
-    run->external -= work;
+    run->time = before;
     run->step--;
     return false;
 }
@@ -194,8 +215,8 @@ static bool check_energy(const struct solver_run *run, struct solver_error *erro
     return solver_fail(
         error, SOLVER_BROKE_DOWN,
         "step %zu, t = %.6g s: kinetic and strain energy are %.3g J, and only %.3g J were ever put in: the "
-        "time integration is unstable. Try a smaller cfl (it is %g)",
-        run->step, run->time, energy, supply, run->scene->cfl);
+        "run is unstable. Try %s (cfl is %g)",
+        run->step, run->time, energy, supply, run->scheme->advice, run->scene->cfl);
 }
 
 bool solver_run_steps(struct solver_run *run, size_t steps, struct solver_error *error)

@@ -71,6 +71,10 @@ static void destroy(void *of)
     free(system);
 }
 
+/* Of the spacing. Particles next to the surface are found among the neighbours nearer than this (ulsph_dim.c), and at
+ * the spacing itself the kernel must not be zero: artificial stresses divide by it. */
+static const double least_support = 1.2;
+
 static bool refuse(const struct solver_scene *scene, struct solver_error *error)
 {
     if (strcmp(scene->material_model, "linear-elastic") != 0) {
@@ -79,6 +83,12 @@ static bool refuse(const struct solver_scene *scene, struct solver_error *error)
             "%s: material.model: scheme = \"ulsph\" has one material, Hooke's law in rates with the Jaumann "
             "rate; expected linear-elastic, got %s",
             scene->path, scene->material_model);
+    }
+    if (scene->support < least_support) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: support: with scheme = \"ulsph\" the nearest neighbours must be well within reach; "
+                           "expected at least %g, got %g",
+                           scene->path, least_support, scene->support);
     }
     if (solver_scene_has(scene, SOLVER_INITIAL_DISPLACEMENT) && !solver_scene_has(scene, SOLVER_INITIAL_F)) {
         return solver_fail(
@@ -120,7 +130,7 @@ static struct solver_geometry geometry(const void *of)
         .V = cloud->V,
         .face_point = cloud->face_point,
         .face_point_count = cloud->face_point_count,
-        .pairs = system->skin.graph.row[cloud->count],
+        .pairs = solver_skin_pairs(&system->skin),
         .bytes = (double)(solver_skin_bytes(&system->skin) +
                           sizeof(double) * (system->pair_room * record + 2 * cloud->count)),
         .passes = 3, /* geometry, gradients, rates */
@@ -167,7 +177,7 @@ static bool find_neighbours(struct system *system, struct solver_error *error)
     if (!solver_skin_update(&system->skin, work->x, system->loops->lanes, error)) {
         return false;
     }
-    size_t pairs = system->skin.graph.row[cloud->count];
+    size_t pairs = solver_skin_pairs(&system->skin);
     if (pairs > system->pair_room) {
         size_t room = pairs + pairs / 4;
         free(system->pair);
@@ -184,46 +194,56 @@ static bool find_neighbours(struct system *system, struct solver_error *error)
     return true;
 }
 
+/* Of entries of F - I: above it strain is no longer small, and what stress a law in rates has then depends on the way
+ * there. */
+static const double largest_gradient = 0.1;
+
 /* Density and deviatoric stress of a small initial strain: Hooke's law. */
-static void strain_initially(struct system *system, size_t a, const double *F)
+static bool strain_initially(struct system *system, size_t a, struct solver_error *error)
 {
     struct solver_ulsph *work = &system->work;
+    const struct solver_scene *scene = system->body->scene;
     size_t dim = (size_t)system->body->cloud->dim;
     size_t lanes = system->loops->lanes;
     const struct solver_material_constants *of_a = constants_of(system, a);
     double volumetric = 0.0;
+    double X[3] = {0};
+    double F[9];
+    memcpy(X, system->body->cloud->X + a * dim, dim * sizeof *X);
+    if (!solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {
+        return false;
+    }
     for (size_t i = 0; i < dim; i++) {
         volumetric += F[i * dim + i] - 1.0;
     }
     for (size_t i = 0; i < dim; i++) {
         for (size_t j = 0; j < dim; j++) {
-            double strain = 0.5 * (F[i * dim + j] + F[j * dim + i]) - (i == j ? 1.0 + volumetric / 3.0 : 0.0);
+            double unit = i == j ? 1.0 : 0.0;
+            double strain = 0.5 * (F[i * dim + j] + F[j * dim + i]) - unit * (1.0 + volumetric / 3.0);
             work->S[(a * dim + j) * lanes + i] = 2.0 * of_a->mu * strain;
+            if (fabs(F[i * dim + j] - unit) > largest_gradient) {
+                return solver_fail(error, SOLVER_BAD_INPUT,
+                                   "%s: initial.F at X = (%g, %g, %g) m: scheme = \"ulsph\" starts from small strains; "
+                                   "expected row %zu, column %zu within %g of %g, got %g",
+                                   scene->path, X[0], X[1], X[2], i + 1, j + 1, largest_gradient, unit, F[i * dim + j]);
+            }
         }
     }
     work->rho[a] = of_a->rho * (1.0 - volumetric);
+    return true;
 }
 
 static bool start(void *of, struct solver_error *error)
 {
     struct system *system = of;
     struct solver_ulsph *work = &system->work;
-    const struct solver_scene *scene = system->body->scene;
-    const struct solver_cloud *cloud = system->body->cloud;
-    size_t dim = (size_t)cloud->dim;
     if (work->transport == NULL) {
         work->transport = work->v;
     }
-    for (size_t a = 0; a < cloud->count; a++) {
-        double X[3] = {0};
-        double F[9];
+    for (size_t a = 0; a < system->body->cloud->count; a++) {
         work->rho[a] = constants_of(system, a)->rho;
-        if (solver_scene_has(scene, SOLVER_INITIAL_F)) {
-            memcpy(X, cloud->X + a * dim, dim * sizeof *X);
-            if (!solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {
-                return false;
-            }
-            strain_initially(system, a, F);
+        if (solver_scene_has(system->body->scene, SOLVER_INITIAL_F) && !strain_initially(system, a, error)) {
+            return false;
         }
     }
     return find_neighbours(system, error);
@@ -349,7 +369,7 @@ const struct solver_scheme solver_scheme_ulsph = {
     .summary = "updated-Lagrangian SPH, delta-ULSPH-R-TIC (001_363f711843f01da4.txt)",
     .choice = choices,
     .deformation = false,
-    .advice = "a smaller cfl, a finer n, or ulsph.tension = \"control\"",
+    .advice = "a smaller cfl, a finer n, or another ulsph.tension",
     .create = create,
     .destroy = destroy,
     .geometry = geometry,

@@ -1,7 +1,6 @@
 #include "solver/skin.h"
 
 #include "solver/memory.h"
-#include "solver/pieces.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,42 +26,51 @@ void solver_skin_free(struct solver_skin *skin)
     *skin = (struct solver_skin){.cloud = NULL};
 }
 
-/* Largest squared way [m^2] that a particle of the piece has gone since the list was made; infinite where a position
- * is not finite. */
-static double farthest(const struct solver_skin *skin, const double *x, size_t lanes, struct solver_piece at)
+/* Squared way [m^2] that a particle has gone since the list was made; not finite where its position is not, or far
+ * beyond all bounds. */
+static double way(const struct solver_skin *skin, const double *x, size_t lanes, size_t a)
 {
     size_t dim = (size_t)skin->cloud->dim;
+    double square = 0.0;
+    for (size_t i = 0; i < dim; i++) {
+        double d = x[a * lanes + i] - skin->built[a * dim + i];
+        square += d * d;
+    }
+    return square;
+}
+
+/* The longest of them; infinite where one is not finite. */
+static double longest_way(const struct solver_skin *skin, const double *x, size_t lanes)
+{
+    size_t count = skin->cloud->count;
     double most = 0.0;
-    for (size_t a = at.begin; a < at.end; a++) {
-        double square = 0.0;
-        for (size_t i = 0; i < dim; i++) {
-            double d = x[a * lanes + i] - skin->built[a * dim + i];
-            square += d * d;
-        }
+#pragma omp parallel for schedule(static) reduction(max : most)
+    for (size_t a = 0; a < count; a++) {
+        double square = way(skin, x, lanes, a);
         most = isfinite(square) ? fmax(most, square) : INFINITY;
     }
     return most;
 }
 
-static double farthest_of_all(const struct solver_skin *skin, const double *x, size_t lanes)
+static bool fail_lost(const struct solver_skin *skin, const double *x, size_t lanes, struct solver_error *error)
 {
-    size_t count = skin->cloud->count;
-    double most = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : most)
-    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
-        most = fmax(most, farthest(skin, x, lanes, solver_piece_at(piece, count)));
+    size_t dim = (size_t)skin->cloud->dim;
+    size_t a = 0;
+    while (isfinite(way(skin, x, lanes, a))) {
+        a++;
     }
-    return most;
+    const double *X = skin->cloud->X + a * dim;
+    return solver_fail(error, SOLVER_BROKE_DOWN,
+                       "particle %zu at X = (%g, %g, %g) m: position x is not finite, or beyond all bounds", a, X[0],
+                       dim > 1 ? X[1] : 0.0, dim > 2 ? X[2] : 0.0);
 }
 
 bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes, struct solver_error *error)
 {
     size_t dim = (size_t)skin->cloud->dim;
-    double most = farthest_of_all(skin, x, lanes);
+    double most = longest_way(skin, x, lanes);
     if (!isfinite(most)) {
-        return solver_fail(
-            error, SOLVER_BROKE_DOWN,
-            "a particle's position is not finite, or beyond all bounds: the run is unstable. Try a smaller cfl");
+        return fail_lost(skin, x, lanes, error);
     }
     /* two particles that move towards one another */
     if (skin->updates > 0 && 4.0 * most <= skin->margin * skin->margin) {
@@ -70,16 +78,26 @@ bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes,
     }
     struct solver_points now = {
         .dim = skin->cloud->dim, .count = skin->cloud->count, .stride = lanes, .x = x, .body = skin->cloud->body};
+    size_t updates = skin->updates;
+    skin->updates = 0; /* there is no list, should this fail */
+    if (!solver_graph_update(&skin->graph, &now, skin->which, skin->radius + skin->margin, error)) {
+        return false;
+    }
     for (size_t a = 0; a < skin->cloud->count; a++) {
         memcpy(skin->built + a * dim, x + a * lanes, dim * sizeof *x);
     }
-    skin->updates++;
-    return solver_graph_update(&skin->graph, &now, skin->which, skin->radius + skin->margin, error);
+    skin->updates = updates + 1;
+    return true;
+}
+
+size_t solver_skin_pairs(const struct solver_skin *skin)
+{
+    return skin->updates > 0 ? skin->graph.row[skin->cloud->count] : 0;
 }
 
 size_t solver_skin_bytes(const struct solver_skin *skin)
 {
     size_t count = skin->cloud->count;
-    return (count + 1) * sizeof *skin->graph.row + skin->graph.row[count] * sizeof *skin->graph.neighbour +
+    return (count + 1) * sizeof *skin->graph.row + solver_skin_pairs(skin) * sizeof *skin->graph.neighbour +
            count * (size_t)skin->cloud->dim * sizeof *skin->built;
 }
