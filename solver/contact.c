@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+static const double most_spacings = 4.0; /* every particle is asked about all others within */
+
 bool solver_contact_create(const struct solver_body *body, const double *V, struct solver_contact *contact,
                            struct solver_error *error)
 {
@@ -21,6 +23,13 @@ bool solver_contact_create(const struct solver_body *body, const double *V, stru
                            scene->path);
     }
     contact->distance = scene->contact_distance > 0.0 ? scene->contact_distance : cloud->spacing;
+    if (contact->distance > most_spacings * cloud->spacing) {
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "%s: contact.distance: expected at most %g spacings, %g m, got %g m: bodies touch where their "
+            "particles are about a spacing apart",
+            scene->path, most_spacings, most_spacings * cloud->spacing, contact->distance);
+    }
     if (!solver_alloc((void **)&contact->mass, cloud->count, sizeof(double), "masses", error)) {
         return false;
     }
