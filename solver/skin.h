@@ -19,8 +19,8 @@ struct solver_skin {
 bool solver_skin_create(const struct solver_cloud *cloud, double radius, enum solver_pairs which,
                         struct solver_skin *skin, struct solver_error *error);
 void solver_skin_free(struct solver_skin *skin);
-/* Makes the list fit the positions x, padded vectors of `lanes` [m]. SOLVER_BROKE_DOWN, the particle named, where one is
- * not finite. After a failure there may be no list; the next call makes it. */
+/* Makes the list fit the positions x, padded vectors of `lanes` [m]. SOLVER_BROKE_DOWN, the particle named, where one
+ * is not finite. After a failure there may be no list; the next call makes it. */
 bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes, struct solver_error *error);
 /* Pairs of the list, both ways. */
 size_t solver_skin_pairs(const struct solver_skin *skin);
