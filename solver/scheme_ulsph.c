@@ -21,7 +21,7 @@ struct system {
     struct solver_skin skin;
     double *pair; /* [skin's capacity][dim + 2] */
     size_t pair_room;
-    double *mass, *full_mass; /* [count] */
+    double *mass, *full_mass; /* [count]; the same array where no cell is cut */
     double fastest;           /* p-wave speed [m/s] */
     struct solver_ulsph work;
 };
@@ -47,18 +47,34 @@ static void choose_terms(struct system *system)
     };
 }
 
+/* Whether kernel sums are weighted by other than the particles' own volumes. */
+static bool cuts_cells(const struct system *system)
+{
+    return system->body->scene->ulsph.cells == SOLVER_ULSPH_WHOLE && system->body->cloud->face_point_count > 0;
+}
+
 /* Masses, those of whole cells, and the fastest wave. A particle on k faces has its cell cut in half k times. */
-static void weigh(struct system *system)
+static bool weigh(struct system *system, struct solver_error *error)
 {
     const struct solver_cloud *cloud = system->body->cloud;
+    if (!solver_alloc((void **)&system->mass, cloud->count, sizeof(double), "masses", error)) {
+        return false;
+    }
+    system->full_mass = system->mass;
+    if (cuts_cells(system) &&
+        !solver_alloc((void **)&system->full_mass, cloud->count, sizeof(double), "masses", error)) {
+        return false;
+    }
     for (size_t a = 0; a < cloud->count; a++) {
         const struct solver_material_constants *of_a = constants_of(system, a);
         system->mass[a] = of_a->rho * cloud->V[a];
-        unsigned cuts = (unsigned)__builtin_popcount(cloud->tags[a] & SOLVER_FACE_BITS);
-        system->full_mass[a] =
-            system->mass[a] * (system->work.terms.cells == SOLVER_ULSPH_WHOLE ? (double)(1U << cuts) : 1.0);
         system->fastest = fmax(system->fastest, of_a->cp);
+        if (system->full_mass != system->mass) {
+            unsigned cuts = (unsigned)__builtin_popcount(cloud->tags[a] & SOLVER_FACE_BITS);
+            system->full_mass[a] = system->mass[a] * (double)(1U << cuts);
+        }
     }
+    return true;
 }
 
 static void destroy(void *of)
@@ -66,8 +82,10 @@ static void destroy(void *of)
     struct system *system = of;
     solver_skin_free(&system->skin);
     free(system->pair);
+    if (system->full_mass != system->mass) {
+        free(system->full_mass);
+    }
     free(system->mass);
-    free(system->full_mass);
     free(system);
 }
 
@@ -102,21 +120,17 @@ static bool refuse(const struct solver_scene *scene, struct solver_error *error)
 
 static bool create(const struct solver_body *body, void **out, struct solver_error *error)
 {
-    size_t count = body->cloud->count;
+    double reach = body->scene->support * body->cloud->spacing;
     struct system *system = NULL;
     if (!refuse(body->scene, error) || !solver_alloc((void **)&system, 1, sizeof *system, "scheme", error)) {
         return false;
     }
     system->body = body;
-    if (!solver_alloc((void **)&system->mass, count, sizeof(double), "masses", error) ||
-        !solver_alloc((void **)&system->full_mass, count, sizeof(double), "masses", error) ||
-        !solver_skin_create(body->cloud, body->scene->support * body->cloud->spacing, SOLVER_PAIRS_WITHIN,
-                            &system->skin, error)) {
+    if (!weigh(system, error) || !solver_skin_create(body->cloud, reach, SOLVER_PAIRS_WITHIN, &system->skin, error)) {
         destroy(system);
         return false;
     }
     choose_terms(system);
-    weigh(system);
     *out = system;
     return true;
 }
@@ -126,13 +140,13 @@ static struct solver_geometry geometry(const void *of)
     const struct system *system = of;
     const struct solver_cloud *cloud = system->body->cloud;
     size_t record = (size_t)cloud->dim + 2;
+    size_t masses = (cuts_cells(system) ? 2 : 1) * cloud->count;
     return (struct solver_geometry){
         .V = cloud->V,
         .face_point = cloud->face_point,
         .face_point_count = cloud->face_point_count,
         .pairs = solver_skin_pairs(&system->skin),
-        .bytes = (double)(solver_skin_bytes(&system->skin) +
-                          sizeof(double) * (system->pair_room * record + 2 * cloud->count)),
+        .bytes = (double)(solver_skin_bytes(&system->skin) + sizeof(double) * (system->pair_room * record + masses)),
         .passes = 3, /* geometry, gradients, rates */
         .residual = NAN,
     };
@@ -153,7 +167,7 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
         {"rho", 1, true, &work->rho, &work->rho_rate, 0},
         {"S", tensor, true, &work->S, &work->S_rate, 0},
         {"m/rho", 1, false, &work->volume, NULL, 0},
-        {"cell", 1, false, &work->cell, NULL, 0},
+        {"cell", cuts_cells(system) ? 1 : 0, false, &work->cell, NULL, 0},
         {"sqrt(rho)", riemann ? 1 : 0, false, &work->root_rho, NULL, 0},
         {"z", riemann ? 1 : 0, false, &work->z, NULL, 0},
         {"L", work->terms.gradient == SOLVER_ULSPH_CORRECTED ? tensor : 0, false, &work->L, NULL, 0},
@@ -239,6 +253,9 @@ static bool start(void *of, struct solver_error *error)
     struct solver_ulsph *work = &system->work;
     if (work->transport == NULL) {
         work->transport = work->v;
+    }
+    if (work->cell == NULL) {
+        work->cell = work->volume;
     }
     for (size_t a = 0; a < system->body->cloud->count; a++) {
         work->rho[a] = constants_of(system, a)->rho;

@@ -30,7 +30,7 @@ struct solver_ulsph {
     /* State; NULL where the scene does not ask for it. */
     double *v, *x, *rho, *S; /* evolved; S the deviatoric stress in the plane, or along the line */
     double *v_rate, *x_rate, *rho_rate, *S_rate;
-    double *volume, *cell; /* [count] now: mass / rho, full_mass / rho */
+    double *volume, *cell; /* [count] now: mass / rho, full_mass / rho; one array where no cell is cut */
     double *root_rho, *z;  /* [count] sqrt(rho), c0 rho^(3/2) (eq. 41) */
     double *L;             /* tensor; NULL: I */
     double *transport;     /* vector: transport velocity; v itself where xsph = 0 */
