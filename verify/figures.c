@@ -106,6 +106,11 @@ static bool check(const struct solver_scene *scene, const struct verify_truth *t
 {
     const struct verify_measure *measure = verify_measure_find(figure->measure);
     struct verify_argument argument[VERIFY_ARGUMENTS];
+    if (truth->kind == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           WHERE "figures are compared with those of an oracle, and the scene has none",
+                           OF(scene, figure));
+    }
     if (measure == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "there is no measure \"%s\"; see assay list measures",
                            OF(scene, figure), figure->measure);

@@ -11,6 +11,8 @@
 void verify_terminal_begin(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
 void verify_terminal_level(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
 void verify_terminal_end(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
+/* What stands in the oracle's place where a scene answers to none. */
+extern const char verify_no_oracle[];
 /* ", stencil residual 1.2e-15 [-]", or nothing where there is no stencil. */
 enum { VERIFY_RESIDUAL = 48 };
 const char *verify_residual(char text[VERIFY_RESIDUAL], const struct solver_facts *facts);

@@ -5,12 +5,17 @@
 #include <stdio.h>
 #include <string.h>
 
+bool verify_truth_wanted(const struct solver_scene *scene)
+{
+    return scene->oracle[0] != '\0';
+}
+
 static bool find_kind(const struct solver_scene *scene, const struct oracle_kind **kind, struct solver_error *error)
 {
-    if (scene->oracle[0] == '\0') {
+    if (!verify_truth_wanted(scene)) {
         return solver_fail(error, SOLVER_BAD_INPUT,
-                           "%s: the scene answers to no oracle (key oracle.name), so there is nothing to verify it "
-                           "against; assay run simulates it",
+                           "%s: the scene answers to no oracle (key oracle.name) and has no gates, so there is "
+                           "nothing to verify it against; assay run simulates it",
                            scene->path);
     }
     *kind = oracle_find(scene->oracle);
