@@ -59,7 +59,7 @@ static bool draw(struct work *work, struct solver_error *error)
     }
     bool done = verify_path_join(study->picture, work->folder, scene->name, ".png", error) &&
                 verify_picture_write(study->picture, record, view, scene->title, error);
-    if (done && work->truth.kind != NULL) {
+    if (done && !work->truth.none) {
         verify_picture_exact(record, work->truth.kind, work->truth.oracle);
         done = verify_path_join(study->exact_picture, work->folder, scene->name, ".exact.png", error) &&
                verify_picture_write(study->exact_picture, record, view, title, error);
@@ -75,26 +75,18 @@ static bool take(void *context, struct solver_run *run, struct solver_error *err
     return verify_level_snapshot(&work->level_now, run, work->truth.kind, work->truth.oracle, error);
 }
 
-/* What is measured against the oracle. */
-static bool measure_errors(struct work *work, const struct solver_output *output, const struct solver_history *history,
-                           struct solver_error *error)
-{
-    const struct verify_truth *truth = &work->truth;
-    struct verify_level *level = &work->level_now;
-    return truth->kind == NULL ||
-           (verify_norms_state(output, truth->kind, truth->oracle, level->error, error) &&
-            verify_norms_probes(history, truth->kind, truth->oracle, work->scene->probe_scale, level->error, error) &&
-            verify_figures_measure(work->scene, truth, history, level, error));
-}
-
 /* Errors, figures and indicators of a finished run. */
 static bool measure(struct work *work, struct solver_run *run, struct solver_error *error)
 {
-    struct verify_level *level = &work->level_now;
+    const struct verify_truth *truth = &work->truth;
     const struct solver_history *history = solver_run_history(run);
+    struct verify_level *level = &work->level_now;
     struct solver_output output;
     level->facts = solver_run_facts(run);
-    return solver_run_output(run, &output, error) && measure_errors(work, &output, history, error) &&
+    return solver_run_output(run, &output, error) &&
+           verify_norms_state(&output, truth->kind, truth->oracle, level->error, error) &&
+           verify_norms_probes(history, truth->kind, truth->oracle, work->scene->probe_scale, level->error, error) &&
+           verify_figures_measure(work->scene, truth, history, level, error) &&
            verify_beside_measure(&work->beside, history, level->error, error) &&
            verify_indicators_measure(work->scene, &output, history, &level->facts, level->indicator, error);
 }
@@ -104,8 +96,7 @@ static bool keep_finest(struct work *work, struct solver_run *run, struct solver
 {
     const struct solver_scene *scene = work->scene;
     return verify_study_history(&work->study, solver_run_history(run), error) &&
-           (work->beside.scene == NULL ||
-            verify_motion_take(solver_run_history(run), &work->study.motion, error)) &&
+           (work->beside.scene == NULL || verify_motion_take(solver_run_history(run), &work->study.motion, error)) &&
            verify_record(scene, run, work->folder, scene->name, work->options->line, work->study.record, error) &&
            draw(work, error);
 }
@@ -115,8 +106,8 @@ static bool run_level(struct work *work, size_t index, struct solver_error *erro
 {
     struct solver_run *run = NULL;
     work->level_now = (struct verify_level){.n = work->level[index]};
-    bool done = verify_simulate(work->scene, work->folder, work->options->line, work->truth.kind != NULL ? take : NULL,
-                                work, &run, error) &&
+    bool done = verify_simulate(work->scene, work->folder, work->options->line, work->truth.none ? NULL : take, work,
+                                &run, error) &&
                 measure(work, run, error);
     if (done) {
         verify_study_add(&work->study, &work->level_now);
@@ -227,21 +218,11 @@ static bool choose_shown(struct work *work, struct solver_error *error)
     return chosen;
 }
 
-/* The oracle, or none where gates hold the run by itself. */
-static bool open_truth(struct work *work, struct solver_error *error)
-{
-    if (verify_truth_wanted(work->scene) || work->scene->gate_count == 0) {
-        return verify_truth_create(work->scene, &work->truth, error);
-    }
-    work->truth = (struct verify_truth){.kind = NULL, .proven = true};
-    return true;
-}
-
 /* The whole study; *passed says whether nothing it judged failed. */
 static bool study(struct work *work, bool *passed, struct solver_error *error)
 {
     if (!refuse_n(work->options, error) || !open_level(work, 0, error) || !choose_levels(work, error) ||
-        !open_all_levels(work, error) || !open_truth(work, error) ||
+        !open_all_levels(work, error) || !verify_truth_open(work->scene, &work->truth, error) ||
         !verify_beside_open(work->options, work->scene, &work->beside, error)) {
         return false;
     }

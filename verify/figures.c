@@ -106,11 +106,6 @@ static bool check(const struct solver_scene *scene, const struct verify_truth *t
 {
     const struct verify_measure *measure = verify_measure_find(figure->measure);
     struct verify_argument argument[VERIFY_ARGUMENTS];
-    if (truth->kind == NULL) {
-        return solver_fail(error, SOLVER_BAD_INPUT,
-                           WHERE "figures are compared with those of an oracle, and the scene has none",
-                           OF(scene, figure));
-    }
     if (measure == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "there is no measure \"%s\"; see assay list measures",
                            OF(scene, figure), figure->measure);
@@ -118,6 +113,10 @@ static bool check(const struct solver_scene *scene, const struct verify_truth *t
     if (measure->in_1d_only && scene->dim != 1) {
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" is for dim = 1, the scene has dim = %d",
                            OF(scene, figure), measure->name, scene->dim);
+    }
+    if (truth->none) {
+        return solver_fail(error, SOLVER_BAD_INPUT, WHERE "figures are compared with an oracle, and the scene has none",
+                           OF(scene, figure));
     }
     if (measure->needs_fronts && (truth->kind->fronts == NULL || scene->snapshot_count == 0)) {
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" needs %s", OF(scene, figure),

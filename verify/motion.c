@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { POINTS = 4 };
 
@@ -18,9 +17,9 @@ bool verify_motion_take(const struct solver_history *history, struct verify_moti
     motion->u = motion->time + rows;
     for (size_t row = 0; row < rows; row++) {
         motion->time[row] = history->totals[row].time;
-    }
-    if (rows * width > 0) {
-        memcpy(motion->u, history->probe_u, rows * width * sizeof *motion->u);
+        for (size_t i = 0; i < width; i++) {
+            motion->u[i * rows + row] = history->probe_u[row * width + i];
+        }
     }
     return true;
 }
@@ -29,6 +28,11 @@ void verify_motion_free(struct verify_motion *motion)
 {
     free(motion->time);
     *motion = (struct verify_motion){.count = 0};
+}
+
+const double *verify_motion_component(const struct verify_motion *motion, size_t probe, size_t axis)
+{
+    return motion->u + (3 * probe + axis) * motion->count;
 }
 
 /* The last row at or before t, by bisection; t lies within the rows. */
@@ -59,13 +63,12 @@ void verify_motion_at(const struct verify_motion *motion, size_t probe, double t
     const double *time = motion->time + first;
     u[0] = u[1] = u[2] = 0;
     for (size_t i = 0; i < points; i++) { /* Lagrange's polynomial of row i */
-        const double *at = motion->u + ((first + i) * motion->probe_count + probe) * 3;
         double weight = 1;
         for (size_t j = 0; j < points; j++) {
             weight *= j == i ? 1 : (t - time[j]) / (time[i] - time[j]);
         }
-        for (int axis = 0; axis < 3; axis++) {
-            u[axis] += weight * at[axis];
+        for (size_t axis = 0; axis < 3; axis++) {
+            u[axis] += weight * verify_motion_component(motion, probe, axis)[first + i];
         }
     }
 }

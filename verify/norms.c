@@ -36,7 +36,7 @@ static const char *const meaning_table[] = {
         OF_STATE(SNAPSHOT_MEANINGS) "root mean square error at the probes over the scene's probe_scale",
     "root mean square error along y at the probes over the scene's probe_scale",
     "relative L2 difference of the displacement at the probes over time from the configuration beside",
-    "root mean square difference of the displacement at the probes over time from the configuration beside"};
+    "absolute L2 difference of the displacement at the probes over time from the configuration beside"};
 _Static_assert(sizeof name_table == VERIFY_ERRORS * sizeof *name_table, "one name per error");
 _Static_assert(sizeof unit_table == VERIFY_ERRORS * sizeof *unit_table, "one unit per error");
 _Static_assert(sizeof meaning_table == VERIFY_ERRORS * sizeof *meaning_table, "one meaning per error");

@@ -36,6 +36,8 @@ bool verify_html(FILE *file, const struct verify_study *study, const size_t *sho
 void verify_plot(FILE *file, const struct verify_study *study, size_t error);
 /* The displacement of a probe over time as an SVG element, computed over exact. */
 void verify_plot_trace(FILE *file, const struct verify_study *study, const struct verify_trace *trace);
+/* One component of a probe's displacement over time, at the finest level and in the configuration beside. */
+void verify_plot_beside(FILE *file, const struct verify_study *study, size_t probe, size_t axis);
 /* Kinetic, strain and total energy over time at the finest level, computed over exact. */
 bool verify_plot_energy(FILE *file, const struct verify_study *study, struct solver_error *error);
 /* The stress along a one-dimensional body at the snapshots, with its heading; nothing where there is none. */

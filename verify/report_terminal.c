@@ -30,7 +30,7 @@ static int width_of(const char *name)
 
 static void print_truth(FILE *file, const struct verify_truth *truth)
 {
-    if (truth->kind == NULL) {
+    if (truth->none) {
         (void)fprintf(file, "\n%s\n", verify_no_oracle);
         return;
     }
@@ -73,7 +73,7 @@ static void print_published_head(FILE *file, const struct solver_scene *scene)
 /* Where there is no exact solution the indicators are what levels have to show. */
 static size_t indicator_columns(const struct verify_study *study)
 {
-    return study->truth->kind == NULL ? VERIFY_INDICATORS : 0;
+    return study->truth->none ? VERIFY_INDICATORS : 0;
 }
 
 /* What the columns of errors hold, and what they are of. */
@@ -85,14 +85,14 @@ static void print_columns_meant(FILE *file, const struct verify_study *study, co
                       study->beside->label);
     }
     if (shown_count > 0) {
-        (void)fprintf(file, "\n%s at t = %.6g s:\n", study->truth->kind != NULL ? "errors" : "differences",
+        (void)fprintf(file, "\n%s at t = %.6g s:\n", !study->truth->none ? "errors" : "differences",
                       study->scene->t_end);
     }
     for (size_t i = 0; i < shown_count; i++) {
         (void)fprintf(file, "  %-10s %s [%s]\n", verify_error_name(shown[i]), verify_error_meaning(shown[i]),
                       verify_error_unit(shown[i]));
     }
-    if (study->truth->kind != NULL) {
+    if (!study->truth->none) {
         print_published_head(file, study->scene);
     }
 }
@@ -163,7 +163,7 @@ void verify_terminal_level(FILE *file, const struct verify_study *study, const s
 
 static void print_orders(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
 {
-    if (study->truth->kind == NULL) {
+    if (study->truth->none) {
         return;
     }
     if (study->level_count < 2) {
@@ -243,7 +243,7 @@ static void print_facts(FILE *file, const struct verify_study *study)
                   "scheme),\n  set up in %.2f s, %d threads%s\n",
                   facts->pairs, (double)facts->pairs / (double)facts->particles, facts->bytes_per_particle,
                   facts->state_bytes, facts->setup_seconds, facts->threads, verify_residual(residual, facts));
-    if (study->truth->kind == NULL) {
+    if (study->truth->none) {
         (void)fprintf(file, "  energy at the end: kinetic %.6g J, strain %.6g J\n", study->last.kinetic,
                       study->last.strain);
         return;

@@ -144,12 +144,12 @@ static void want(bool wanted[VERIFY_ERRORS], size_t error)
 static size_t list(const struct solver_scene *scene, const bool wanted[VERIFY_ERRORS], size_t shown[VERIFY_ERRORS])
 {
     size_t count = 0;
-    for (size_t i = 0; i < VERIFY_BESIDE && verify_truth_wanted(scene); i++) {
+    for (size_t i = 0; i < VERIFY_BESIDE && scene->oracle[0] != '\0'; i++) {
         if (wanted[i] && verify_error_known(scene, i)) {
             shown[count++] = i;
         }
     }
-    if (count == 0 && verify_truth_wanted(scene)) {
+    if (count == 0 && scene->oracle[0] != '\0') {
         shown[count++] = verify_error_find("p");
         shown[count++] = verify_error_find(verify_error_known(scene, verify_error_find("P")) ? "P" : "sigma");
     }

@@ -58,18 +58,20 @@ static struct solver_scene scene = {.oracle = "swinging-cube"};
 static void levels_added(void)
 {
     struct verify_level level = {.n = 4, .facts = {.particles = 125, .steps = 8, .spacing = 0.25, .seconds = 1e-3}};
-    level.error[0] = 4e-2;
+    level.error[0] = level.error[VERIFY_BESIDE] = 4e-2;
     level.figure[1].error = 8e-3;
     verify_study_add(&study, &level);
     CU_ASSERT(isnan(study.level[0].rate[0]) && isnan(study.level[0].figure[1].rate));
     CU_ASSERT_DOUBLE_EQUAL(study.level[0].ns_per_particle_step, 1000, 1e-9);
     level.n = 8;
+    level.error[VERIFY_BESIDE] = 1e-2;
     level.facts.spacing = 0.125;
     level.error[0] = 1e-2;
     level.figure[1].error = 1e-3;
     verify_study_add(&study, &level);
     CU_ASSERT_EQUAL(study.level_count, 2);
     CU_ASSERT_DOUBLE_EQUAL(study.level[1].rate[0], 2, 1e-12);
+    CU_ASSERT(isnan(study.level[1].rate[VERIFY_BESIDE])); /* a difference has no order */
     CU_ASSERT_DOUBLE_EQUAL(study.level[1].figure[1].rate, 3, 1e-12);
     level.n = 24; /* the order is that from the level before, not from the first */
     level.facts.spacing = 0.125 / 3;
@@ -113,6 +115,10 @@ static void published_rows(void)
     bare.scheme[0] = '\0';
     CU_ASSERT(verify_shown(&bare, shown, &count, &error) && count == 2);
     CU_ASSERT(shown[0] == verify_error_find("p") && shown[1] == verify_error_find("P"));
+    bare.beside.count = 1; /* and the differences from the configuration beside */
+    CU_ASSERT(verify_shown(&bare, shown, &count, &error) && count == 4 && shown[3] == VERIFY_BESIDE_ABS);
+    bare.oracle[0] = '\0'; /* there is nothing else */
+    CU_ASSERT(verify_shown(&bare, shown, &count, &error) && count == 2 && shown[0] == VERIFY_BESIDE);
     struct solver_scene figures_alone = {
         .oracle = "swinging-cube", .gate_count = 1, .gate = {{.bounds = 1, .bound = {{"rate figure period", 1}}}}};
     CU_ASSERT(verify_shown(&figures_alone, shown, &count, &error) &&
