@@ -222,7 +222,6 @@ static void refusals(void)
     refused("beside = { dim = 3 }", "both configurations have the same dim");
     refused("beside = { a = 0.5 }", "other probes");
     refused("beside = { a = 2 }", "outside the domain"); /* the other configuration is checked as any scene is */
-    refused("probes = nil\nbeside = { n = 8 }", "probes are what is compared");
 }
 
 int main(void)
