@@ -103,7 +103,9 @@ static void print_head(FILE *file, const struct verify_study *study, const size_
     for (size_t i = 0; i < shown_count; i++) {
         const char *name = verify_error_name(shown[i]);
         (void)fprintf(file, " | %-*s", width_of(name), name);
-        (void)fprintf(file, verify_error_has_order(shown[i]) ? " %5s %10s" : "", "order", "published");
+        if (verify_error_has_order(shown[i])) {
+            (void)fprintf(file, " %5s %10s", "order", "published");
+        }
     }
     for (size_t i = 0; i < indicator_columns(study); i++) {
         const char *name = verify_indicator_name(i);
