@@ -67,8 +67,8 @@ static bool check(const struct solver_scene *scene, const struct solver_scene *o
 {
     bool same = scene->dim == other->dim && scene->t_end == other->t_end && scene->probe_count == other->probe_count;
     for (size_t i = 0; same && i < scene->probe_count; i++) {
-        same = strcmp(scene->probe[i].name, other->probe[i].name) == 0 &&
-               memcmp(scene->probe[i].X, other->probe[i].X, sizeof scene->probe[i].X) == 0;
+        const struct solver_probe *a = &scene->probe[i], *b = &other->probe[i];
+        same = strcmp(a->name, b->name) == 0 && a->X[0] == b->X[0] && a->X[1] == b->X[1] && a->X[2] == b->X[2];
     }
     return same || solver_fail(error, SOLVER_BAD_INPUT,
                                "%s: beside: the configuration beside this one has another dim, t_end or other probes, "
