@@ -114,6 +114,13 @@ struct solver_published_row {
     struct solver_named value[SOLVER_NAMED];
 };
 
+/* Keys and the values they have, as `--set` would spell them, in the order of the keys. */
+struct solver_settings {
+    size_t count;
+    char key[SOLVER_NAMED][SOLVER_NAME];
+    char text[SOLVER_NAMED][SOLVER_NAME];
+};
+
 /* One entry of `gates`: bounds that hold where every key under `when` has the given value in this run.
  * Bound names: an error name ("p", "P": largest error at the finest level) or "rate NAME" (smallest observed order
  * between the two finest levels). An entry without `when` holds where no other does. */
@@ -223,6 +230,7 @@ struct solver_scene {
     struct solver_published_row published[SOLVER_ROWS];
     size_t gate_count;
     struct solver_gate_rule gate[SOLVER_GATES];
+    struct solver_settings beside; /* what another configuration overrides, beside which this one is looked at */
     bool has_view;
     struct solver_view view;
 

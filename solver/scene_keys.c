@@ -128,6 +128,8 @@ X("published", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ source = text, { n = ...
   "the figures printed in the paper")                                                                                  \
 X("gates", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 32 { when = { KEY = value, ... }, NAME = bound, ... }",\
   "largest errors and, as [\"rate NAME\"], smallest observed orders; [\"figure NAME\"] for those of figures, [\"indicator NAME\"]")                                                  \
+X("beside", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ KEY = value, ... }",                                              \
+  "another configuration of the same scene, whose probes a study shows and compares with this one's")                   \
 X("view.field", TEXT, AT(view.field), 0, 0, SOLVER_NAME, "", NEEDED, "name of a scalar of the record",                 \
   "what the picture shows")                                                                                            \
 X("view.range", NUMBERS, AT(view.range), 0, 0, 2, "", NEEDED, "list of 2 numbers, increasing", "colour range")         \

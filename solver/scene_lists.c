@@ -275,27 +275,27 @@ static void read_condition(lua_State *L, const struct solver_scene *scene, const
     scene_read_text(L, path, -1, out, SOLVER_NAME);
 }
 
-/* The conditions under `when`, on top of the stack, in the order of their names. */
-static void read_conditions(lua_State *L, const struct solver_scene *scene, const char *key,
-                            struct solver_gate_rule *gate)
+/* Plain keys and their values, the table on top of the stack, in the order of their names. */
+static void read_settings(lua_State *L, const struct solver_scene *scene, const char *table, size_t *count,
+                          char (*key)[SOLVER_NAME], char (*text)[SOLVER_NAME])
 {
     struct solver_named name[SOLVER_NAMED];
     if (!lua_istable(L, -1))
-        scene_refuse_value(L, key, "{ KEY = value, ... }", -1);
+        scene_refuse_value(L, table, "{ KEY = value, ... }", -1);
     for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1)) {
         if (lua_type(L, -2) != LUA_TSTRING)
-            scene_refuse_value(L, key, "names as keys", -2);
+            scene_refuse_value(L, table, "names as keys", -2);
         lua_pushnumber(L, 0);
-        append(L, key, lua_tostring(L, -3), name, &gate->conditions);
+        append(L, table, lua_tostring(L, -3), name, count);
         lua_pop(L, 1);
     }
-    sort_named(name, gate->conditions);
-    for (size_t i = 0; i < gate->conditions; i++) {
+    sort_named(name, *count);
+    for (size_t i = 0; i < *count; i++) {
         char path[3 * SOLVER_NAME];
-        snprintf(path, sizeof path, "%s.%s", key, name[i].name);
-        snprintf(gate->key[i], SOLVER_NAME, "%s", name[i].name);
+        snprintf(path, sizeof path, "%s.%s", table, name[i].name);
+        snprintf(key[i], SOLVER_NAME, "%s", name[i].name);
         lua_getfield(L, -1, name[i].name);
-        read_condition(L, scene, path, name[i].name, gate->text[i]);
+        read_condition(L, scene, path, name[i].name, text[i]);
         lua_pop(L, 1);
     }
 }
@@ -316,7 +316,7 @@ void scene_read_gates(lua_State *L, struct solver_scene *scene)
                 if (lua_type(L, -2) != LUA_TSTRING)
                     scene_refuse_value(L, key, "names as keys", -2);
                 if (!strcmp(lua_tostring(L, -2), "when"))
-                    read_conditions(L, scene, when, gate);
+                    read_settings(L, scene, when, &gate->conditions, gate->key, gate->text);
                 else
                     append(L, key, lua_tostring(L, -2), gate->bound, &gate->bounds);
             }
@@ -325,6 +325,24 @@ void scene_read_gates(lua_State *L, struct solver_scene *scene)
             sort_named(gate->bound, gate->bounds);
             lua_pop(L, 1);
         }
+    }
+    lua_pop(L, 1);
+}
+
+/* --- beside --- */
+
+void scene_read_beside(lua_State *L, struct solver_scene *scene)
+{
+    static const char *const same[] = {"dim", "t_end"};
+    struct solver_settings *beside = &scene->beside;
+    if (scene_push_table(L, "beside", "{ KEY = value, ... }")) {
+        read_settings(L, scene, "beside", &beside->count, beside->key, beside->text);
+        for (size_t i = 0; i < beside->count; i++)
+            for (size_t j = 0; j < sizeof same / sizeof *same; j++)
+                if (!strcmp(beside->key[i], same[j]))
+                    scene_refuse(L, "beside.%s: both configurations have the same %s", same[j], same[j]);
+        if (beside->count > 0 && scene->probe_count == 0)
+            scene_refuse(L, "beside: probes are what is compared, and the scene has none");
     }
     lua_pop(L, 1);
 }

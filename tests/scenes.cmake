@@ -34,3 +34,4 @@ scene_with(bimaterial-wave "snapshots_sigma_l1 = 5e-4, [\"rate snapshots_sigma_l
   "P_l1 = 0.02, [\"rate P_l1\"] = 1" wave_scene)
 scene_with(cantilever-plate "probes = 0.008, [\"rate probes\"] = 1.4, [\"figure period\"] = 6e-4"
   "probes = 0.02, [\"figure period\"] = 1.5e-3" plate_scene)
+scene_with(rotating-plate "beside = 0.04" "p_l1 = 1" plate_without_oracle)

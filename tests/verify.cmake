@@ -2,6 +2,7 @@
 set(cli sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh)
 set(assay $<TARGET_FILE:assay>)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
+include(${CMAKE_CURRENT_LIST_DIR}/scenes.cmake)
 
 # What was typed or given is wrong: exit code 2, and the message says what.
 function(cli_refuses name text)
@@ -33,6 +34,10 @@ cli_refuses(missing-record "nothing-there.vtkhdf" render nothing-there.vtkhdf)
 cli_refuses(no-such-scalar "its fields are F, H, J, P, displacement, momentum, pressure, sigma" render
             ${CMAKE_SOURCE_DIR}/golden/swinging-cube.vtkhdf -o test-out/none.png --set view.field=Q_xx)
 cli_refuses(gate-on-unknown-field "\"P\" needs the scene's key scheme" verify swinging-cube --set scheme=ulsph)
+cli_refuses(no-oracle-no-gates "has no gates" verify rotating-plate --set gates={})
+cli_refuses(beside-nothing "\"beside\" needs the scene's key beside" verify rotating-plate --set beside={})
+cli_refuses(beside-without-probes "probes are what is compared" verify rotating-plate --set probes={})
+cli_refuses(gate-without-oracle "\"p_l1\" needs the scene's key oracle" verify ${plate_without_oracle})
 cli_refuses(foreign-record "CMakeCache.txt" render CMakeCache.txt)
 cli_refuses(json-over-another-file "ends in .json" verify swinging-cube --levels 8 --out test-out/device
             --json /dev/null)
@@ -80,6 +85,12 @@ assay_test(golden-shows LABELS golden mustfail COMMAND sh -c
    $<TARGET_FILE:assay> golden check swinging-cube --dir test-out/golden --out test-out/golden-shown --set material.E=18e6
    test $? = 1 && cd test-out/golden-shown && ls swinging-cube.diff.png swinging-cube.stored.png swinging-cube.fresh.png")
 set_tests_properties(golden-notices golden-shows PROPERTIES FIXTURES_REQUIRED "program;golden-round-trip")
+
+# A scene without an oracle: judged by its indicators and beside another configuration, in which too few particles show.
+assay_test(no-oracle LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_beside.py ${assay}
+  test-out/no-oracle)
+assay_test(no-oracle-too-coarse LABELS gate mustfail COMMAND ${cli} 1 "FAIL: a gate does not hold"
+  ${assay} verify rotating-plate --set scheme=ulsph --set t_end=0.03 --levels 8 --out test-out/no-oracle-coarse)
 
 # The JSON report and its checker, on a study that passes or fails and on one that must fail.
 assay_test(json-shape LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py ${assay}

@@ -14,6 +14,7 @@ struct work {
     const struct verify_options *options;
     struct solver_scene *scene; /* of the level at hand */
     struct verify_truth truth;
+    struct verify_beside beside;
     struct verify_study study;
     char folder[VERIFY_PATH];
     size_t level_count;
@@ -44,7 +45,7 @@ static bool choose_levels(struct work *work, struct solver_error *error)
            solver_fail(error, SOLVER_BAD_INPUT, "%s: the scene has no levels; give --levels 4,8,16", work->scene->path);
 }
 
-/* Renders the record's picture, and the exact one beside it. */
+/* Renders the record's picture and, where there is an oracle, the exact one beside it. */
 static bool draw(struct work *work, struct solver_error *error)
 {
     const struct solver_scene *scene = work->scene;
@@ -57,11 +58,11 @@ static bool draw(struct work *work, struct solver_error *error)
         return false;
     }
     bool done = verify_path_join(study->picture, work->folder, scene->name, ".png", error) &&
-                verify_path_join(study->exact_picture, work->folder, scene->name, ".exact.png", error) &&
                 verify_picture_write(study->picture, record, view, scene->title, error);
-    if (done) {
+    if (done && !work->truth.none) {
         verify_picture_exact(record, work->truth.kind, work->truth.oracle);
-        done = verify_picture_write(study->exact_picture, record, view, title, error);
+        done = verify_path_join(study->exact_picture, work->folder, scene->name, ".exact.png", error) &&
+               verify_picture_write(study->exact_picture, record, view, title, error);
     }
     solver_record_free(record);
     return done;
@@ -78,16 +79,16 @@ static bool take(void *context, struct solver_run *run, struct solver_error *err
 static bool measure(struct work *work, struct solver_run *run, struct solver_error *error)
 {
     const struct verify_truth *truth = &work->truth;
+    const struct solver_history *history = solver_run_history(run);
     struct verify_level *level = &work->level_now;
     struct solver_output output;
     level->facts = solver_run_facts(run);
     return solver_run_output(run, &output, error) &&
            verify_norms_state(&output, truth->kind, truth->oracle, level->error, error) &&
-           verify_norms_probes(solver_run_history(run), truth->kind, truth->oracle, work->scene->probe_scale,
-                               level->error, error) &&
-           verify_figures_measure(work->scene, truth, solver_run_history(run), level, error) &&
-           verify_indicators_measure(work->scene, &output, solver_run_history(run), &level->facts, level->indicator,
-                                     error);
+           verify_norms_probes(history, truth->kind, truth->oracle, work->scene->probe_scale, level->error, error) &&
+           verify_figures_measure(work->scene, truth, history, level, error) &&
+           verify_beside_measure(&work->beside, history, level->error, error) &&
+           verify_indicators_measure(work->scene, &output, history, &level->facts, level->indicator, error);
 }
 
 /* What is kept of the finest level alone. */
@@ -95,6 +96,7 @@ static bool keep_finest(struct work *work, struct solver_run *run, struct solver
 {
     const struct solver_scene *scene = work->scene;
     return verify_study_history(&work->study, solver_run_history(run), error) &&
+           (work->beside.scene == NULL || verify_motion_take(solver_run_history(run), &work->study.motion, error)) &&
            verify_record(scene, run, work->folder, scene->name, work->options->line, work->study.record, error) &&
            draw(work, error);
 }
@@ -104,7 +106,8 @@ static bool run_level(struct work *work, size_t index, struct solver_error *erro
 {
     struct solver_run *run = NULL;
     work->level_now = (struct verify_level){.n = work->level[index]};
-    bool done = verify_simulate(work->scene, work->folder, work->options->line, take, work, &run, error) &&
+    bool done = verify_simulate(work->scene, work->folder, work->options->line, work->truth.none ? NULL : take, work,
+                                &run, error) &&
                 measure(work, run, error);
     if (done) {
         verify_study_add(&work->study, &work->level_now);
@@ -126,8 +129,17 @@ static bool open_level(struct work *work, int n, struct solver_error *error)
     return opened;
 }
 
+/* The other configuration first, so that every level can be compared with it. */
+static bool run_beside(struct work *work, struct solver_error *error)
+{
+    return work->beside.scene == NULL || verify_beside_run(&work->beside, work->folder, work->options->line, error);
+}
+
 static bool run_levels(struct work *work, struct solver_error *error)
 {
+    if (!run_beside(work, error)) {
+        return false;
+    }
     for (size_t i = 0; i < work->level_count; i++) {
         if (!open_level(work, work->level[i], error) || !run_level(work, i, error)) {
             return false;
@@ -177,8 +189,10 @@ static bool write_reports(const struct work *work, struct solver_error *error)
         (void)printf("           %s\n", work->options->json);
     }
     if (work->study.record[0] != '\0') {
-        (void)printf("record     %s\npicture    %s\nexact      %s\n", work->study.record, work->study.picture,
-                     work->study.exact_picture);
+        (void)printf("record     %s\npicture    %s\n", work->study.record, work->study.picture);
+    }
+    if (work->study.exact_picture[0] != '\0') {
+        (void)printf("exact      %s\n", work->study.exact_picture);
     }
     return true;
 }
@@ -186,7 +200,7 @@ static bool write_reports(const struct work *work, struct solver_error *error)
 /* A level that cannot be had, because it asks for too much memory for instance, is refused before the first is run. */
 static bool open_all_levels(struct work *work, struct solver_error *error)
 {
-    for (size_t i = work->level_count; i-- > 0;) {
+    for (size_t i = 0; i < work->level_count; i++) {
         if (!open_level(work, work->level[i], error)) {
             return false;
         }
@@ -194,18 +208,29 @@ static bool open_all_levels(struct work *work, struct solver_error *error)
     return true;
 }
 
+static bool choose_shown(struct work *work, struct solver_error *error)
+{
+    bool chosen = verify_shown(work->scene, work->shown, &work->shown_count, error);
+    while (chosen && work->beside.scene == NULL && work->shown_count > 0 &&
+           !verify_error_has_order(work->shown[work->shown_count - 1])) {
+        work->shown_count--; /* nothing is run beside */
+    }
+    return chosen;
+}
+
 /* The whole study; *passed says whether nothing it judged failed. */
 static bool study(struct work *work, bool *passed, struct solver_error *error)
 {
     if (!refuse_n(work->options, error) || !open_level(work, 0, error) || !choose_levels(work, error) ||
-        !open_all_levels(work, error) || !verify_truth_create(work->scene, &work->truth, error)) {
+        !open_all_levels(work, error) || !verify_truth_open(work->scene, &work->truth, error) ||
+        !verify_beside_open(work->options, work->scene, &work->beside, error)) {
         return false;
     }
     work->study.truth = &work->truth;
-    work->shown_count = verify_shown(work->scene, work->shown, error);
+    work->study.beside = &work->beside;
     /* the gates by what is measured so far, nothing: one that names what there is not is refused before the first run
      */
-    if (work->shown_count == 0 || !verify_figures_check(work->scene, &work->truth, error) ||
+    if (!choose_shown(work, error) || !verify_figures_check(work->scene, &work->truth, error) ||
         !verify_gates_judge(work->scene, &work->level_now, &work->study.gates, error) ||
         !verify_out_folder(work->options, work->scene->name, work->folder, error)) {
         return false;
@@ -235,6 +260,7 @@ int verify_command_verify(const struct verify_options *options)
     bool done = study(work, &passed, &error);
     verify_study_free(&work->study);
     verify_truth_free(&work->truth);
+    verify_beside_free(&work->beside);
     solver_scene_free(work->scene);
     free(work);
     if (!done) {

@@ -114,6 +114,10 @@ static bool check(const struct solver_scene *scene, const struct verify_truth *t
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" is for dim = 1, the scene has dim = %d",
                            OF(scene, figure), measure->name, scene->dim);
     }
+    if (truth->none) {
+        return solver_fail(error, SOLVER_BAD_INPUT, WHERE "figures are compared with an oracle, and the scene has none",
+                           OF(scene, figure));
+    }
     if (measure->needs_fronts && (truth->kind->fronts == NULL || scene->snapshot_count == 0)) {
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" needs %s", OF(scene, figure),
                            measure->name, truth->kind->fronts == NULL ? "an oracle that has fronts" : "snapshots");

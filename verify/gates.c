@@ -13,8 +13,7 @@ bool verify_gate_judge(double value, const char *op, double bound)
     return strcmp(op, "<=") == 0 ? value <= bound : strcmp(op, ">=") == 0 && value >= bound;
 }
 
-/* Numbers are the same however they are spelt: 0.3 and 0.30. */
-static bool same_value(const char *a, const char *b)
+bool verify_same_value(const char *a, const char *b)
 {
     char *end_a = NULL, *end_b = NULL;
     double x = strtod(a, &end_a), y = strtod(b, &end_b);
@@ -33,7 +32,7 @@ static bool holds(const struct solver_scene *scene, size_t index, bool *met, str
                                "%s: gates[%zu].when.%s: the scene has no such key; see assay list keys", scene->path,
                                index + 1, rule->key[i]);
         }
-        *met = *met && same_value(text, rule->text[i]);
+        *met = *met && verify_same_value(text, rule->text[i]);
     }
     return true;
 }

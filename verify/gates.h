@@ -26,6 +26,9 @@ struct verify_gates {
     bool pass;    /* at least one gate, and all of them pass */
 };
 
+/* Whether two values spelt as `--set` would are the same: numbers however they are spelt. */
+bool verify_same_value(const char *a, const char *b);
+
 /* Whether `value op bound` holds, op being "<=" or ">=". A value or bound that is not finite never passes: it is no
  * measurement. */
 bool verify_gate_judge(double value, const char *op, double bound);

@@ -60,6 +60,11 @@ static bool error_value(const struct solver_scene *scene, const struct verify_le
                            "%s: there is no error called \"%s\"; there are %s, and \"rate \" before any of them", where,
                            name, verify_error_names);
     }
+    if (is_rate && !verify_error_has_order(which)) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: \"%s\": a difference from another configuration has no order; gate its value", where,
+                           name);
+    }
     if (!verify_error_applies(scene, which, &lacks)) {
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: \"%s\" needs the scene's key %s", where, name, lacks);
     }

@@ -29,12 +29,14 @@
 #define SNAPSHOT_MEANINGS(field, unit, meaning) MEANINGS(field, unit, meaning ", largest over the snapshots")
 
 static const char *const name_table[] = {OF_STATE(NAMES) OF_PROBES(NAMES) OF_STATE(SNAPSHOT_NAMES) "probes_nrmse",
-                                         "probes_y_nrmse"};
-static const char *const unit_table[] = {OF_STATE(UNITS) OF_PROBES(UNITS) OF_STATE(UNITS) "-", "-"};
+                                         "probes_y_nrmse", "beside", "beside_abs"};
+static const char *const unit_table[] = {OF_STATE(UNITS) OF_PROBES(UNITS) OF_STATE(UNITS) "-", "-", "-", "m"};
 static const char *const meaning_table[] = {
     OF_STATE(MEANINGS) OF_PROBES(MEANINGS)
         OF_STATE(SNAPSHOT_MEANINGS) "root mean square error at the probes over the scene's probe_scale",
-    "root mean square error along y at the probes over the scene's probe_scale"};
+    "root mean square error along y at the probes over the scene's probe_scale",
+    "relative L2 difference of the displacement at the probes over time from the configuration beside",
+    "absolute L2 difference of the displacement at the probes over time from the configuration beside"};
 _Static_assert(sizeof name_table == VERIFY_ERRORS * sizeof *name_table, "one name per error");
 _Static_assert(sizeof unit_table == VERIFY_ERRORS * sizeof *unit_table, "one unit per error");
 _Static_assert(sizeof meaning_table == VERIFY_ERRORS * sizeof *meaning_table, "one meaning per error");
@@ -42,7 +44,7 @@ _Static_assert(sizeof meaning_table == VERIFY_ERRORS * sizeof *meaning_table, "o
 const char verify_error_names[] =
     "p, P, P_all, u, F, sigma, sigma_all, probes, probes_y, each also with _abs, _max, _abs_max or "
     "_l1, all but those of probes also with snapshots_ before "
-    "it, probes_nrmse and probes_y_nrmse";
+    "it, probes_nrmse, probes_y_nrmse, beside and beside_abs";
 
 /* Unlike fmax, keeps a NaN. */
 static double larger(double a, double b)
@@ -93,6 +95,11 @@ const char *verify_error_meaning(size_t error)
     return meaning_table[error];
 }
 
+bool verify_error_has_order(size_t error)
+{
+    return error < VERIFY_BESIDE;
+}
+
 size_t verify_error_find(const char *name)
 {
     size_t error = 0;
@@ -125,7 +132,12 @@ bool verify_error_applies(const struct solver_scene *scene, size_t error, const 
     bool of_snapshots = error >= VERIFY_SNAPSHOT_ERRORS && error < VERIFY_PROBES_NRMSE;
     bool of_probes = !of_snapshots && error >= VERIFY_STATE_ERRORS;
     bool along_y = error == VERIFY_PROBES_Y_NRMSE || field_of(error) == VERIFY_PROBES_Y;
-    *lacks = of_snapshots && scene->snapshot_count == 0                  ? "snapshots"
+    if (!verify_error_has_order(error)) {
+        *lacks = scene->beside.count == 0 ? "beside" : NULL;
+        return *lacks == NULL;
+    }
+    *lacks = scene->oracle[0] == '\0'                                    ? "oracle, to compare with"
+             : of_snapshots && scene->snapshot_count == 0                ? "snapshots"
              : of_probes && scene->probe_count == 0                      ? "probes"
              : along_y && scene->dim < 2                                 ? "dim = 2 or 3, so that there is a y"
              : error >= VERIFY_PROBES_NRMSE && !(scene->probe_scale > 0) ? "probe_scale"

@@ -47,13 +47,16 @@ enum verify_field {
  * "probes", "probes_y" are relative L2 norms; with "_abs" absolute L2, with "_max"
  * relative max, with "_abs_max" absolute max, with "_l1" relative L1. With "snapshots_" before the name of a state's
  * error, the largest of it over the scene's snapshots. "probes_nrmse" is probes_abs over the scene's
- * probe_scale, and probes_y_nrmse likewise. */
+ * probe_scale, and probes_y_nrmse likewise. "beside" and "beside_abs" are as "probes" and
+ * "probes_abs", against another configuration of the scene (beside.h) in place of an oracle. */
 enum {
     VERIFY_NORMS = 5,
     VERIFY_STATE_ERRORS = VERIFY_NORMS * VERIFY_STATE_FIELDS, /* these come first */
     VERIFY_SNAPSHOT_ERRORS = VERIFY_NORMS * VERIFY_FIELDS,    /* where those of the snapshots begin */
     VERIFY_PROBES_NRMSE = VERIFY_SNAPSHOT_ERRORS + VERIFY_STATE_ERRORS,
     VERIFY_PROBES_Y_NRMSE,
+    VERIFY_BESIDE,
+    VERIFY_BESIDE_ABS,
     VERIFY_ERRORS
 };
 
@@ -62,12 +65,14 @@ const char *verify_error_name(size_t error);
 const char *verify_error_unit(size_t error);
 /* "relative L2 error of the linear momentum, all components" */
 const char *verify_error_meaning(size_t error);
+/* Whether it is of an exact solution, so that it has an order; a difference from another configuration has none. */
+bool verify_error_has_order(size_t error);
 /* VERIFY_ERRORS if there is none of that name. */
 size_t verify_error_find(const char *name);
 /* What names there are, for messages. */
 extern const char verify_error_names[];
-/* Whether the scene has what the error is of; if not, *lacks says what is missing: "snapshots", or a scheme that knows
- * the field. */
+/* Whether the scene has what the error is of; if not, *lacks says what is missing: "snapshots", an oracle, or a scheme
+ * that knows the field. */
 bool verify_error_applies(const struct solver_scene *scene, size_t error, const char **lacks);
 
 /* Errors of the present state against an oracle at its time. False if there is no memory. */

@@ -12,6 +12,10 @@ enum { EXACT = 400, DOTS = 60 };
 
 static const struct verify_chart frame = {.left = LEFT, .right = RIGHT, .top = TOP, .bottom = BOTTOM};
 
+static const char *const displacement_name[] = {"u<tspan baseline-shift=\"sub\" font-size=\"9\">x</tspan>",
+                                                "u<tspan baseline-shift=\"sub\" font-size=\"9\">y</tspan>",
+                                                "u<tspan baseline-shift=\"sub\" font-size=\"9\">z</tspan>"};
+
 /* Times of the exact curve's points over the range of the computed one. */
 static void exact_times(size_t count, const double *time, double out[EXACT])
 {
@@ -40,13 +44,10 @@ static double largest(const struct verify_study *study)
 
 void verify_plot_trace(FILE *file, const struct verify_study *study, const struct verify_trace *trace)
 {
-    static const char *const name[] = {"u<tspan baseline-shift=\"sub\" font-size=\"9\">x</tspan>",
-                                       "u<tspan baseline-shift=\"sub\" font-size=\"9\">y</tspan>",
-                                       "u<tspan baseline-shift=\"sub\" font-size=\"9\">z</tspan>"};
     double time[EXACT], exact[EXACT];
     struct verify_chart chart = frame;
     chart.x = verify_axis("t", "s");
-    chart.y = verify_axis(name[trace->axis], "m");
+    chart.y = verify_axis(displacement_name[trace->axis], "m");
     exact_times(trace->count, trace->time, time);
     for (size_t i = 0; i < EXACT; i++) {
         struct oracle_state state;
@@ -73,8 +74,42 @@ void verify_plot_trace(FILE *file, const struct verify_study *study, const struc
     if (trace->count <= DOTS) {
         verify_chart_dots(file, &chart, "finest", trace->count, trace->time, trace->displacement);
     }
-    key(file, RIGHT - 170, "exact", "exact");
+    if (!study->truth->none) {
+        key(file, RIGHT - 170, "exact", "exact");
+    }
     key(file, RIGHT - 86, "finest", "computed");
+    (void)fprintf(file, "</svg>\n");
+}
+
+static void hold_motion(struct verify_chart *chart, const struct verify_motion *motion, const double *u)
+{
+    for (size_t i = 0; i < motion->count; i++) {
+        verify_axis_hold(&chart->x, motion->time[i]);
+        verify_axis_hold(&chart->y, u[i]);
+    }
+}
+
+void verify_plot_beside(FILE *file, const struct verify_study *study, size_t probe, size_t axis)
+{
+    const struct verify_motion *run = &study->motion, *other = &study->beside->motion;
+    const double *u = verify_motion_component(run, probe, axis), *u_other = verify_motion_component(other, probe, axis);
+    struct verify_chart chart = frame;
+    chart.x = verify_axis("t", "s");
+    chart.y = verify_axis(displacement_name[axis], "m");
+    hold_motion(&chart, run, u);
+    hold_motion(&chart, other, u_other);
+    if (!(chart.y.high - chart.y.low > 1e-12 * largest(study)) || !verify_axis_close(&chart.x, 0) ||
+        !verify_axis_close(&chart.y, 0.05)) {
+        return; /* nothing moves along this axis */
+    }
+    (void)fprintf(file, "<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"displacement over time\">\n", WIDTH,
+                  HEIGHT);
+    verify_chart_frame(file, &chart, true);
+    (void)fprintf(file, "<text class=\"title\" x=\"%d\" y=\"%d\">", LEFT, TOP - 10);
+    verify_html_text(file, study->scene->probe[probe].name);
+    (void)fprintf(file, "</text>");
+    verify_chart_line(file, &chart, "beside", other->count, 1, other->time, u_other);
+    verify_chart_line(file, &chart, "finest", run->count, 1, run->time, u);
     (void)fprintf(file, "</svg>\n");
 }
 
@@ -127,7 +162,9 @@ static void draw_energies(FILE *file, const struct verify_study *study, const st
     verify_chart_line(file, &chart, "kinetic", count, STRIDE, &computed->time, &computed->kinetic);
     verify_chart_line(file, &chart, "strain", count, STRIDE, &computed->time, &computed->strain);
     verify_chart_line(file, &chart, "total", count, STRIDE, &computed->time, &computed->total);
-    key(file, LEFT, "exact", "exact");
+    if (!study->truth->none) {
+        key(file, LEFT, "exact", "exact");
+    }
     key(file, RIGHT - 280, "kinetic", "kinetic");
     key(file, RIGHT - 180, "strain", "strain");
     key(file, RIGHT - 86, "total", "total");

@@ -11,6 +11,8 @@
 void verify_terminal_begin(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
 void verify_terminal_level(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
 void verify_terminal_end(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
+/* What stands in the oracle's place where a scene answers to none. */
+extern const char verify_no_oracle[];
 /* ", stencil residual 1.2e-15 [-]", or nothing where there is no stencil. */
 enum { VERIFY_RESIDUAL = 48 };
 const char *verify_residual(char text[VERIFY_RESIDUAL], const struct solver_facts *facts);
@@ -34,6 +36,8 @@ bool verify_html(FILE *file, const struct verify_study *study, const size_t *sho
 void verify_plot(FILE *file, const struct verify_study *study, size_t error);
 /* The displacement of a probe over time as an SVG element, computed over exact. */
 void verify_plot_trace(FILE *file, const struct verify_study *study, const struct verify_trace *trace);
+/* One component of a probe's displacement over time, at the finest level and in the configuration beside. */
+void verify_plot_beside(FILE *file, const struct verify_study *study, size_t probe, size_t axis);
 /* Kinetic, strain and total energy over time at the finest level, computed over exact. */
 bool verify_plot_energy(FILE *file, const struct verify_study *study, struct solver_error *error);
 /* The stress along a one-dimensional body at the snapshots, with its heading; nothing where there is none. */

@@ -24,6 +24,7 @@ static const char style[] =
     "svg .title{font-weight:600}svg line.front{stroke:#8c959f;stroke-dasharray:2 3}svg line.interface{stroke:#8c959f}"
     "svg polyline.exact{stroke:#f7b267;stroke-width:4.5;stroke-linejoin:round}"
     "svg polyline.finest,svg polyline.kinetic{stroke:#0b3d91;stroke-width:1.4}"
+    "svg polyline.beside{stroke:#e08214;stroke-width:3;stroke-dasharray:7 4}"
     "svg circle.finest{fill:#0b3d91}svg polyline.finer{stroke:#2f8f5b;stroke-width:1.2}svg "
     "polyline.fine{stroke:#b03a8c;stroke-width:1.2}"
     "svg polyline.strain{stroke:#2f8f5b;stroke-width:1.4}svg polyline.total{stroke:#1b1f24;stroke-width:1.4}"
@@ -52,34 +53,34 @@ static void head(FILE *file, const struct verify_study *study)
                                                                                                    : "fail";
         (void)fprintf(file, "<p class=\"verdict %s\">%s.</p>\n", class, verify_verdict(study));
     }
+    if (study->truth->none) {
+        (void)fprintf(file, "<p>There is %s.</p>\n", verify_no_oracle);
+    }
 }
 
-static void levels(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+/* Columns of the errors shown at a level. */
+static void level_errors(FILE *file, const struct verify_study *study, const struct verify_level *level,
+                         const size_t *shown, size_t shown_count)
 {
-    (void)fprintf(file,
-                  "<h2>Errors at t = %.6g s</h2><table><tr><th>n</th><th>h [m]</th><th>particles</th><th>steps</th>"
-                  "<th>time [s]</th><th>ns per<br>particle-step</th>",
-                  study->scene->t_end);
     for (size_t i = 0; i < shown_count; i++) {
-        (void)fprintf(file, "<th>%s [%s]</th><th>order</th><th>published</th>", verify_error_name(shown[i]),
-                      verify_error_unit(shown[i]));
-    }
-    (void)fprintf(file, "</tr>\n");
-    for (size_t i = 0; i < study->level_count; i++) {
-        const struct verify_level *level = &study->level[i];
-        (void)fprintf(file, "<tr><td>%d</td><td>%.4g</td><td>%zu</td><td>%zu</td><td>%.3f</td><td>%.1f</td>", level->n,
-                      level->facts.spacing, level->facts.particles, level->facts.steps, level->facts.seconds,
-                      level->ns_per_particle_step);
-        for (size_t j = 0; j < shown_count; j++) {
-            verify_html_cell(file, "e", level->error[shown[j]]);
-            verify_html_cell(file, "f", level->rate[shown[j]]);
-            verify_html_cell(file, "e", verify_published(study->scene, level->n, verify_error_name(shown[j])));
+        verify_html_cell(file, "e", level->error[shown[i]]);
+        if (verify_error_has_order(shown[i])) {
+            verify_html_cell(file, "f", level->rate[shown[i]]);
+            verify_html_cell(file, "e", verify_published(study->scene, level->n, verify_error_name(shown[i])));
         }
-        (void)fprintf(file, "</tr>\n");
     }
-    (void)fprintf(file, "</table>\n<p class=\"note\">");
+}
+
+/* What the columns of errors mean. */
+static void levels_note(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+{
+    (void)fprintf(file, "<p class=\"note\">");
     for (size_t i = 0; i < shown_count; i++) {
         (void)fprintf(file, "%s: %s. ", verify_error_name(shown[i]), verify_error_meaning(shown[i]));
+    }
+    if (study->truth->none) {
+        (void)fprintf(file, "</p>\n");
+        return;
     }
     (void)fprintf(file, "Relative L2: &radic;(&Sigma;V|e|&sup2; / &Sigma;V|exact|&sup2;). Order: "
                         "log(e1/e2)/log(h1/h2) from the level before.</p>\n");
@@ -89,6 +90,31 @@ static void levels(FILE *file, const struct verify_study *study, const size_t *s
         (void)fprintf(file,
                       ". The source does not define its error norm: its figures stand beside ours for orientation "
                       "and decide no gate.</p>\n");
+    }
+}
+
+static void levels(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+{
+    (void)fprintf(file,
+                  "<h2>%s t = %.6g s</h2><table><tr><th>n</th><th>h [m]</th><th>particles</th><th>steps</th>"
+                  "<th>time [s]</th><th>ns per<br>particle-step</th>",
+                  study->truth->none ? "Levels, run to" : "Errors at", study->scene->t_end);
+    for (size_t i = 0; i < shown_count; i++) {
+        (void)fprintf(file, "<th>%s [%s]</th>%s", verify_error_name(shown[i]), verify_error_unit(shown[i]),
+                      verify_error_has_order(shown[i]) ? "<th>order</th><th>published</th>" : "");
+    }
+    (void)fprintf(file, "</tr>\n");
+    for (size_t i = 0; i < study->level_count; i++) {
+        const struct verify_level *level = &study->level[i];
+        (void)fprintf(file, "<tr><td>%d</td><td>%.4g</td><td>%zu</td><td>%zu</td><td>%.3f</td><td>%.1f</td>", level->n,
+                      level->facts.spacing, level->facts.particles, level->facts.steps, level->facts.seconds,
+                      level->ns_per_particle_step);
+        level_errors(file, study, level, shown, shown_count);
+        (void)fprintf(file, "</tr>\n");
+    }
+    (void)fprintf(file, "</table>\n");
+    if (shown_count > 0) {
+        levels_note(file, study, shown, shown_count);
     }
 }
 
@@ -184,10 +210,37 @@ static void gates(FILE *file, const struct verify_gates *judged)
     (void)fprintf(file, "</table>\n");
 }
 
+static void key(FILE *file, const char *class, const char *label)
+{
+    (void)fprintf(file, "<svg viewBox=\"0 0 30 10\"><polyline class=\"%s\" points=\"0,5 30,5\"/></svg>", class);
+    verify_html_text(file, label);
+}
+
+/* The probes in this configuration and in the one beside it. */
+static void beside(FILE *file, const struct verify_study *study)
+{
+    if (study->beside->scene == NULL) {
+        return;
+    }
+    (void)fprintf(file, "<h2>Displacement of the probes, beside another configuration</h2><p class=\"key\">");
+    key(file, "finest", study->beside->label_of_study);
+    key(file, "beside", study->beside->label);
+    (void)fprintf(file, "</p>\n<div class=\"row\">\n");
+    for (size_t probe = 0; probe < study->motion.probe_count; probe++) {
+        for (size_t axis = 0; axis < (size_t)study->scene->dim; axis++) {
+            verify_plot_beside(file, study, probe, axis);
+        }
+    }
+    (void)fprintf(file, "</div>\n<p class=\"note\">The configuration beside is no exact solution: what differs may be "
+                        "the fault of either.</p>\n");
+}
+
+/* A probe that is drawn beside another configuration is not drawn again where there is no exact curve to show. */
 static bool over_time(FILE *file, const struct verify_study *study, struct solver_error *error)
 {
     (void)fprintf(file, "<h2>Over time, finest level</h2><div class=\"row\">\n");
-    for (size_t i = 0; i < study->trace_count; i++) {
+    bool drawn_already = study->truth->none && study->beside->scene != NULL;
+    for (size_t i = 0; i < study->trace_count && !drawn_already; i++) {
         verify_plot_trace(file, study, &study->trace[i]);
     }
     bool drawn = verify_plot_energy(file, study, error);
@@ -198,7 +251,7 @@ static bool over_time(FILE *file, const struct verify_study *study, struct solve
 static void convergence(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
 {
     (void)fprintf(file, "<h2>Convergence</h2><div class=\"row\">\n");
-    for (size_t i = 0; i < shown_count; i++) {
+    for (size_t i = 0; i < shown_count && verify_error_has_order(shown[i]); i++) {
         verify_plot(file, study, shown[i]);
     }
     (void)fprintf(file, "</div>\n");
@@ -224,7 +277,10 @@ static bool results(FILE *file, const struct verify_study *study, const size_t *
         return false;
     }
     snapshots(file, study, shown, shown_count);
-    convergence(file, study, shown, shown_count);
+    if (!study->truth->none) {
+        convergence(file, study, shown, shown_count);
+    }
+    beside(file, study);
     if (!over_time(file, study, error) || !pictures(file, study, error)) {
         return false;
     }
@@ -239,7 +295,9 @@ bool verify_html(FILE *file, const struct verify_study *study, const size_t *sho
     if (study->level_count > 0 && !results(file, study, shown, shown_count, error)) {
         return false;
     }
-    verify_html_oracle(file, study->truth);
+    if (!study->truth->none) {
+        verify_html_oracle(file, study->truth);
+    }
     if (study->level_count > 0) {
         verify_html_quantities(file, study);
     }

@@ -50,7 +50,7 @@ void verify_html_oracle(FILE *file, const struct verify_truth *truth)
     for (size_t i = 0; i < figures; i++) {
         (void)fprintf(file, "<tr><td>");
         verify_html_text(file, figure[i].name);
-        (void)fprintf(file, "</td><td>%.10g</td><td>%s</td><td>", figure[i].value, figure[i].unit);
+        (void)fprintf(file, "</td><td>%.10g</td><td>%s</td><td class=\"help\">", figure[i].value, figure[i].unit);
         verify_html_text(file, figure[i].help);
         (void)fprintf(file, "</td></tr>\n");
     }
@@ -74,10 +74,13 @@ void verify_html_quantities(FILE *file, const struct verify_study *study)
                   "<h2>Conserved quantities at the finest level</h2><table><tr><th></th><th>t = %.6g s</th>"
                   "<th>t = %.6g s</th><th>exact</th><th>unit</th></tr>\n",
                   a->time, b->time);
-    (void)fprintf(file, "<tr><td>kinetic energy</td><td>%.6e</td><td>%.6e</td><td>%.6e</td><td>J</td></tr>\n",
-                  a->kinetic, b->kinetic, kinetic);
-    (void)fprintf(file, "<tr><td>strain energy</td><td>%.6e</td><td>%.6e</td><td>%.6e</td><td>J</td></tr>\n", a->strain,
-                  b->strain, strain);
+    const char *const name[] = {"kinetic", "strain"};
+    const double first[] = {a->kinetic, a->strain}, last[] = {b->kinetic, b->strain}, exact[] = {kinetic, strain};
+    for (int i = 0; i < 2; i++) {
+        (void)fprintf(file, "<tr><td>%s energy</td><td>%.6e</td><td>%.6e</td>", name[i], first[i], last[i]);
+        verify_html_number(file, exact[i]);
+        (void)fprintf(file, "<td>J</td></tr>\n");
+    }
     (void)fprintf(file, "<tr><td>external work</td><td>%.6e</td><td>%.6e</td><td></td><td>J</td></tr>\n", a->external,
                   b->external);
     for (int i = 0; i < 3; i++) {

@@ -84,7 +84,7 @@ static void rates(FILE *file, const struct verify_study *study)
     const struct verify_level *finest = &study->level[study->level_count - 1];
     (void)fputs("],\n  \"rates\": {", file);
     if (study->level_count > 1) {
-        errors(file, scene, VERIFY_ERRORS, finest->rate);
+        errors(file, scene, VERIFY_BESIDE, finest->rate);
         for (size_t i = 0; i < scene->figure_count; i++) {
             char name[SOLVER_NAME + 8];
             (void)snprintf(name, sizeof name, "figure %s", scene->figure[i].name);

@@ -6,6 +6,8 @@
 static const char *const evolved_name[] = {
     [SOLVER_PF] = "{p,F}", [SOLVER_PFJ] = "{p,F,J}", [SOLVER_PFHJ] = "{p,F,H,J}"};
 
+const char verify_no_oracle[] = "no oracle: nothing here is compared with an exact solution";
+
 /* "%.3e", or a dash where there is no number to show. */
 static const char *scientific(char text[32], double value)
 {
@@ -19,15 +21,19 @@ static const char *order(char text[32], double value)
     return text;
 }
 
-/* Characters of the column of an error. */
-static int width_of(size_t error)
+/* Characters of the column of what has this name. */
+static int width_of(const char *name)
 {
-    int length = (int)strlen(verify_error_name(error));
+    int length = (int)strlen(name);
     return length > 10 ? length : 10;
 }
 
 static void print_truth(FILE *file, const struct verify_truth *truth)
 {
+    if (truth->none) {
+        (void)fprintf(file, "\n%s\n", verify_no_oracle);
+        return;
+    }
     (void)fprintf(file, "\noracle     %s: %s\n           source: %s\n", truth->kind->name, truth->kind->summary,
                   truth->kind->source);
     for (size_t i = 0; i < truth->parameter_count; i++) {
@@ -64,6 +70,60 @@ static void print_published_head(FILE *file, const struct solver_scene *scene)
                         "  stand beside ours for orientation and decide no gate.\n");
 }
 
+/* Where there is no exact solution the indicators are what levels have to show. */
+static size_t indicator_columns(const struct verify_study *study)
+{
+    return study->truth->none ? VERIFY_INDICATORS : 0;
+}
+
+/* What the columns of errors hold, and what they are of. */
+static void print_columns_meant(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+{
+    if (study->beside->scene != NULL) {
+        (void)fprintf(file,
+                      "\nbeside     %s: run once, the same scene in another configuration, and no exact solution\n",
+                      study->beside->label);
+    }
+    if (shown_count > 0) {
+        (void)fprintf(file, "\n%s at t = %.6g s:\n", !study->truth->none ? "errors" : "differences",
+                      study->scene->t_end);
+    }
+    for (size_t i = 0; i < shown_count; i++) {
+        (void)fprintf(file, "  %-10s %s [%s]\n", verify_error_name(shown[i]), verify_error_meaning(shown[i]),
+                      verify_error_unit(shown[i]));
+    }
+    if (!study->truth->none) {
+        print_published_head(file, study->scene);
+    }
+}
+
+static void print_head(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
+{
+    (void)fprintf(file, "\n%5s %10s %9s %6s %8s %10s", "n", "h", "particles", "steps", "time", "ns per");
+    for (size_t i = 0; i < shown_count; i++) {
+        const char *name = verify_error_name(shown[i]);
+        (void)fprintf(file, " | %-*s", width_of(name), name);
+        if (verify_error_has_order(shown[i])) {
+            (void)fprintf(file, " %5s %10s", "order", "published");
+        }
+    }
+    for (size_t i = 0; i < indicator_columns(study); i++) {
+        const char *name = verify_indicator_name(i);
+        (void)fprintf(file, " | %-*s", width_of(name), name);
+    }
+    (void)fprintf(file, "\n%5s %10s %9s %6s %8s %10s", "", "[m]", "", "", "[s]", "part.-step");
+    for (size_t i = 0; i < shown_count; i++) {
+        const char *unit = verify_error_unit(shown[i]);
+        int width = width_of(verify_error_name(shown[i])) + (verify_error_has_order(shown[i]) ? 17 : 0);
+        (void)fprintf(file, " | [%s]%*s", unit, width - 2 - (int)strlen(unit), "");
+    }
+    for (size_t i = 0; i < indicator_columns(study); i++) {
+        (void)fprintf(file, " | %-*s", width_of(verify_indicator_name(i)), "[-]");
+    }
+    (void)fprintf(file, "\n");
+    (void)fflush(file);
+}
+
 void verify_terminal_begin(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
 {
     const struct solver_scene *scene = study->scene;
@@ -78,35 +138,26 @@ void verify_terminal_begin(FILE *file, const struct verify_study *study, const s
     if (!study->truth->proven) {
         return;
     }
-    (void)fprintf(file, "\nerrors at t = %.6g s:\n", scene->t_end);
-    for (size_t i = 0; i < shown_count; i++) {
-        (void)fprintf(file, "  %-10s %s [%s]\n", verify_error_name(shown[i]), verify_error_meaning(shown[i]),
-                      verify_error_unit(shown[i]));
-    }
-    print_published_head(file, scene);
-    (void)fprintf(file, "\n%5s %10s %9s %6s %8s %10s", "n", "h", "particles", "steps", "time", "ns per");
-    for (size_t i = 0; i < shown_count; i++) {
-        (void)fprintf(file, " | %-*s %5s %10s", width_of(shown[i]), verify_error_name(shown[i]), "order", "published");
-    }
-    (void)fprintf(file, "\n%5s %10s %9s %6s %8s %10s", "", "[m]", "", "", "[s]", "part.-step");
-    for (size_t i = 0; i < shown_count; i++) {
-        (void)fprintf(file, " | [%s]%*s %5s %10s", verify_error_unit(shown[i]),
-                      width_of(shown[i]) - 2 - (int)strlen(verify_error_unit(shown[i])), "", "", "");
-    }
-    (void)fprintf(file, "\n");
-    (void)fflush(file);
+    print_columns_meant(file, study, shown, shown_count);
+    print_head(file, study, shown, shown_count);
 }
 
 void verify_terminal_level(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
 {
     const struct verify_level *level = &study->level[study->level_count - 1];
+    char text[32];
     (void)fprintf(file, "%5d %10.4g %9zu %6zu %8.3f %10.1f", level->n, level->facts.spacing, level->facts.particles,
                   level->facts.steps, level->facts.seconds, level->ns_per_particle_step);
     for (size_t i = 0; i < shown_count; i++) {
-        char measured[32], rate[32], published[32];
-        double printed = verify_published(study->scene, level->n, verify_error_name(shown[i]));
-        (void)fprintf(file, " | %-*s %5s %10s", width_of(shown[i]), scientific(measured, level->error[shown[i]]),
-                      order(rate, level->rate[shown[i]]), scientific(published, printed));
+        const char *name = verify_error_name(shown[i]);
+        (void)fprintf(file, " | %-*s", width_of(name), scientific(text, level->error[shown[i]]));
+        if (verify_error_has_order(shown[i])) {
+            (void)fprintf(file, " %5s", order(text, level->rate[shown[i]]));
+            (void)fprintf(file, " %10s", scientific(text, verify_published(study->scene, level->n, name)));
+        }
+    }
+    for (size_t i = 0; i < indicator_columns(study); i++) {
+        (void)fprintf(file, " | %-*s", width_of(verify_indicator_name(i)), scientific(text, level->indicator[i]));
     }
     (void)fprintf(file, "\n");
     (void)fflush(file);
@@ -114,6 +165,9 @@ void verify_terminal_level(FILE *file, const struct verify_study *study, const s
 
 static void print_orders(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
 {
+    if (study->truth->none) {
+        return;
+    }
     if (study->level_count < 2) {
         (void)fprintf(file, "\none level only: no order was observed\n");
         return;
@@ -123,6 +177,9 @@ static void print_orders(FILE *file, const struct verify_study *study, const siz
     for (size_t i = 0; i < shown_count; i++) {
         char text[32];
         const char *name = verify_error_name(shown[i]);
+        if (!verify_error_has_order(shown[i])) {
+            continue;
+        }
         (void)fprintf(file, "%s %s %s", i == 0 ? "" : ",", name, order(text, fine->rate[shown[i]]));
         double published = verify_order(verify_published(study->scene, coarse->n, name), 1.0 / coarse->n,
                                         verify_published(study->scene, fine->n, name), 1.0 / fine->n);
@@ -188,6 +245,11 @@ static void print_facts(FILE *file, const struct verify_study *study)
                   "scheme),\n  set up in %.2f s, %d threads%s\n",
                   facts->pairs, (double)facts->pairs / (double)facts->particles, facts->bytes_per_particle,
                   facts->state_bytes, facts->setup_seconds, facts->threads, verify_residual(residual, facts));
+    if (study->truth->none) {
+        (void)fprintf(file, "  energy at the end: kinetic %.6g J, strain %.6g J\n", study->last.kinetic,
+                      study->last.strain);
+        return;
+    }
     double kinetic = NAN, strain = NAN;
     study->truth->kind->energy(study->truth->oracle, study->last.time, &kinetic, &strain);
     (void)fprintf(file, "  energy at the end: kinetic %.6g J (exact %.6g J), strain %.6g J (exact %.6g J)\n",

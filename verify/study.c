@@ -27,7 +27,9 @@ void verify_study_add(struct verify_study *study, const struct verify_level *lev
     added->ns_per_particle_step = 1e9 * level->facts.seconds / particle_steps;
     const struct verify_level *before = study->level_count > 0 ? added - 1 : NULL;
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
-        added->rate[i] = order_from(before, before != NULL ? before->error[i] : NAN, added, added->error[i]);
+        added->rate[i] = verify_error_has_order(i)
+                             ? order_from(before, before != NULL ? before->error[i] : NAN, added, added->error[i])
+                             : NAN;
     }
     for (size_t i = 0; i < SOLVER_FIGURES; i++) {
         struct verify_figure *figure = &added->figure[i];
@@ -57,6 +59,7 @@ bool verify_study_history(struct verify_study *study, const struct solver_histor
 
 void verify_study_free(struct verify_study *study)
 {
+    verify_motion_free(&study->motion);
     for (size_t i = 0; i < study->trace_count; i++) {
         verify_trace_free(&study->trace[i]);
     }
@@ -86,9 +89,9 @@ const char *verify_verdict(const struct verify_study *study)
 /* Keys that say how a scene is solved, not what it is. */
 static bool is_method(const char *key, size_t length)
 {
-    static const char *const methods[] = {"scheme",      "evolved",    "stencil", "support",   "reconstruction",
-                                          "volume_flux", "integrator", "cfl",     "n",         "perturb",
-                                          "seed",        "precision",  "threads", "snapshots", "history"};
+    static const char *const methods[] = {
+        "scheme", "evolved", "stencil", "support",   "reconstruction", "volume_flux", "integrator", "cfl",
+        "n",      "perturb", "seed",    "precision", "threads",        "snapshots",   "history",    "beside"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (strlen(methods[i]) == length && strncmp(methods[i], key, length) == 0) {
             return true;
@@ -136,23 +139,28 @@ static void want(bool wanted[VERIFY_ERRORS], size_t error)
     }
 }
 
-/* Those wanted that the scheme knows; p and the stress where nothing is asked for. */
+/* Those wanted that the scheme knows and that can be measured; p and the stress where nothing is asked of the oracle,
+ * then differences from the configuration beside. */
 static size_t list(const struct solver_scene *scene, const bool wanted[VERIFY_ERRORS], size_t shown[VERIFY_ERRORS])
 {
     size_t count = 0;
-    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
+    for (size_t i = 0; i < VERIFY_BESIDE && scene->oracle[0] != '\0'; i++) {
         if (wanted[i] && verify_error_known(scene, i)) {
             shown[count++] = i;
         }
     }
-    if (count == 0) {
+    if (count == 0 && scene->oracle[0] != '\0') {
         shown[count++] = verify_error_find("p");
         shown[count++] = verify_error_find(verify_error_known(scene, verify_error_find("P")) ? "P" : "sigma");
+    }
+    for (size_t i = VERIFY_BESIDE; i < VERIFY_ERRORS && scene->beside.count > 0; i++) {
+        shown[count++] = i;
     }
     return count;
 }
 
-size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], struct solver_error *error)
+bool verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], size_t *count,
+                  struct solver_error *error)
 {
     bool wanted[VERIFY_ERRORS] = {false};
     for (size_t i = 0; i < scene->published_count; i++) {
@@ -160,10 +168,9 @@ size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS
             const char *name = scene->published[i].value[j].name;
             want(wanted, verify_error_find(name));
             if (verify_error_find(name) == VERIFY_ERRORS) {
-                (void)solver_fail(error, SOLVER_BAD_INPUT,
-                                  "%s: published: there is no error called \"%s\"; there are %s", scene->path, name,
-                                  verify_error_names);
-                return 0;
+                return solver_fail(error, SOLVER_BAD_INPUT,
+                                   "%s: published: there is no error called \"%s\"; there are %s", scene->path, name,
+                                   verify_error_names);
             }
         }
     }
@@ -173,7 +180,8 @@ size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS
             want(wanted, verify_level_error(name, NULL));
         }
     }
-    return list(scene, wanted, shown);
+    *count = list(scene, wanted, shown);
+    return true;
 }
 
 size_t verify_shown_snapshots(const size_t *shown, size_t shown_count, size_t of_state[VERIFY_STATE_ERRORS])

@@ -3,6 +3,7 @@
 #define VERIFY_STUDY_H
 
 #include "solver/scene.h"
+#include "verify/beside.h"
 #include "verify/files.h"
 #include "verify/gates.h"
 #include "verify/level.h"
@@ -23,6 +24,8 @@ struct verify_study {
     struct verify_gates gates;
     size_t trace_count;
     struct verify_trace trace[SOLVER_PROBES]; /* at the finest level */
+    const struct verify_beside *beside;
+    struct verify_motion motion; /* at the finest level, if something was run beside it */
     /* Files written, "" where not. */
     char record[VERIFY_PATH], picture[VERIFY_PATH], exact_picture[VERIFY_PATH];
 };
@@ -53,9 +56,11 @@ double verify_published(const struct solver_scene *scene, int n, const char *err
 /* Whether the scene's scheme stands on the scene's stencil. */
 bool verify_has_stencil(const struct solver_scene *scene);
 /* Errors worth a column: those published and those that gates name, as far as the scheme knows their fields; where
- * there are none p and P, or sigma where the scheme has no P. Returns how many. Fails with 0 (SOLVER_BAD_INPUT) on a
- * published name that is no error. */
-size_t verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], struct solver_error *error);
+ * there are none p and P, or sigma where the scheme has no P. Without an oracle none of these; last, where
+ * there is one, the differences from the configuration beside. Fails
+ * (SOLVER_BAD_INPUT) on a published name that is no error. */
+bool verify_shown(const struct solver_scene *scene, size_t shown[VERIFY_ERRORS], size_t *count,
+                  struct solver_error *error);
 /* Of those, the ones that are the largest over the snapshots: which error of a state each is the largest of. */
 size_t verify_shown_snapshots(const size_t *shown, size_t shown_count, size_t of_state[VERIFY_STATE_ERRORS]);
 

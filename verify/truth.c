@@ -2,8 +2,38 @@
 
 #include "verify/suggest.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+static void state_unknown(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state)
+{
+    (void)oracle;
+    (void)X;
+    (void)t;
+    for (int i = 0; i < 9; i++) {
+        state->F[i] = state->P[i] = NAN;
+    }
+    for (int i = 0; i < 3; i++) {
+        state->u[i] = state->v[i] = state->p[i] = NAN;
+    }
+}
+
+static void energy_unknown(const struct oracle *oracle, double t, double *kinetic, double *strain)
+{
+    (void)oracle;
+    (void)t;
+    *kinetic = *strain = NAN;
+}
+
+static void destroy_nothing(struct oracle *oracle)
+{
+    (void)oracle;
+}
+
+/* Stands where there is no oracle. */
+static const struct oracle_kind unknown = {
+    .name = "", .state = state_unknown, .energy = energy_unknown, .destroy = destroy_nothing};
 
 static bool find_kind(const struct solver_scene *scene, const struct oracle_kind **kind, struct solver_error *error)
 {
@@ -90,6 +120,20 @@ bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *
     }
     truth->proven = oracle_self_check(truth->kind, truth->oracle, truth->check, &truth->check_count);
     return true;
+}
+
+bool verify_truth_open(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error)
+{
+    if (scene->oracle[0] != '\0') {
+        return verify_truth_create(scene, truth, error);
+    }
+    *truth = (struct verify_truth){.kind = &unknown, .proven = true, .none = true};
+    return scene->gate_count > 0 ||
+           solver_fail(
+               error, SOLVER_BAD_INPUT,
+               "%s: the scene answers to no oracle (key oracle.name) and has no gates on indicators, so there is "
+               "nothing to verify; assay run simulates it",
+               scene->path);
 }
 
 void verify_truth_free(struct verify_truth *truth)

@@ -17,11 +17,14 @@ struct verify_truth {
     size_t check_count;
     struct oracle_check check[ORACLE_LAWS]; /* the self-check, line by line */
     bool proven;                            /* at least one line, and each within its bound */
+    bool none; /* the scene answers to no oracle: `kind` knows nothing, all it says is NaN, and is held to be proven */
 };
 
 /* Finds the scene's oracle, gives it its parameters (oracle.KEY before the scene's own value of that name) and runs its
  * self-check. A failing self-check is no error: see `proven`. Errors name the key that is missing or unknown. */
 bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error);
+/* The same for a study, which a scene without an oracle may have too: that of a run whose gates are on indicators. */
+bool verify_truth_open(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error);
 void verify_truth_free(struct verify_truth *truth);
 
 #endif

@@ -210,6 +210,17 @@ static void wrong_rules(void)
     CU_ASSERT_FALSE(judge());
     CU_ASSERT_EQUAL(why.code, SOLVER_BAD_INPUT);
     CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "needs the scene's key snapshots"));
+    prepare();
+    scene->beside.count = 1;
+    strcpy(scene->gate[1].bound[0].name, "beside");
+    CU_ASSERT_TRUE(judge());
+    strcpy(scene->gate[1].bound[0].name, "rate beside");
+    CU_ASSERT_FALSE(judge());
+    CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "has no order"));
+    prepare();
+    scene->oracle[0] = '\0'; /* errors are of what no longer is there */
+    CU_ASSERT_FALSE(judge());
+    CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "needs the scene's key oracle"));
 }
 
 int main(void)

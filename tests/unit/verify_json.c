@@ -48,7 +48,7 @@ static void broken_utf8(void)
     string_is("\xc3\"", "\"\\ufffd\\\"\""); /* the quote is not swallowed */
 }
 
-static struct solver_scene scene;
+static struct solver_scene scene = {.oracle = "some"};
 static struct verify_truth truth;
 static struct verify_study study;
 

@@ -196,7 +196,8 @@ static void errors_that_apply(void)
                  {"probes_nrmse", "probe_scale"},
                  {"probes_y_abs_max", "dim = 2 or 3, so that there is a y"},
                  {"probes_y_nrmse", "dim = 2 or 3, so that there is a y"}};
-    struct solver_scene scene = {.dim = 2, .probe_count = 1, .probe_scale = 1, .snapshot_count = 1};
+    struct solver_scene scene = {
+        .oracle = "some", .dim = 2, .probe_count = 1, .probe_scale = 1, .snapshot_count = 1, .beside = {.count = 1}};
     const char *lacks = NULL;
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
         CU_ASSERT(verify_error_applies(&scene, i, &lacks) && lacks == NULL);
@@ -211,6 +212,16 @@ static void errors_that_apply(void)
         CU_ASSERT_STRING_EQUAL(lacks, needs[i].lacks);
         CU_ASSERT_TRUE(verify_error_applies(&less, verify_error_find("P_l1"), &lacks));
     }
+    struct solver_scene alone = scene; /* no oracle: what is left is the configuration beside */
+    alone.oracle[0] = '\0';
+    for (size_t i = 0; i < VERIFY_ERRORS; i++) {
+        CU_ASSERT_EQUAL(verify_error_applies(&alone, i, &lacks), i >= VERIFY_BESIDE);
+        CU_ASSERT(lacks == NULL || strncmp(lacks, "oracle", 6) == 0);
+    }
+    scene.beside.count = 0;
+    CU_ASSERT_FALSE(verify_error_applies(&scene, VERIFY_BESIDE, &lacks));
+    CU_ASSERT_STRING_EQUAL(lacks, "beside");
+    scene.beside.count = 1;
     (void)snprintf(scene.scheme, sizeof scene.scheme, "ulsph"); /* knows neither F nor P */
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
         const char *name = verify_error_name(i) + (strncmp(verify_error_name(i), "snapshots_", 10) == 0 ? 10 : 0);

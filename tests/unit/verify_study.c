@@ -53,23 +53,25 @@ static void snapshot_columns(void)
 }
 
 static struct verify_study study;
-static struct solver_scene scene;
+static struct solver_scene scene = {.oracle = "swinging-cube"};
 
 static void levels_added(void)
 {
     struct verify_level level = {.n = 4, .facts = {.particles = 125, .steps = 8, .spacing = 0.25, .seconds = 1e-3}};
-    level.error[0] = 4e-2;
+    level.error[0] = level.error[VERIFY_BESIDE] = 4e-2;
     level.figure[1].error = 8e-3;
     verify_study_add(&study, &level);
     CU_ASSERT(isnan(study.level[0].rate[0]) && isnan(study.level[0].figure[1].rate));
     CU_ASSERT_DOUBLE_EQUAL(study.level[0].ns_per_particle_step, 1000, 1e-9);
     level.n = 8;
+    level.error[VERIFY_BESIDE] = 1e-2;
     level.facts.spacing = 0.125;
     level.error[0] = 1e-2;
     level.figure[1].error = 1e-3;
     verify_study_add(&study, &level);
     CU_ASSERT_EQUAL(study.level_count, 2);
     CU_ASSERT_DOUBLE_EQUAL(study.level[1].rate[0], 2, 1e-12);
+    CU_ASSERT(isnan(study.level[1].rate[VERIFY_BESIDE])); /* a difference has no order */
     CU_ASSERT_DOUBLE_EQUAL(study.level[1].figure[1].rate, 3, 1e-12);
     level.n = 24; /* the order is that from the level before, not from the first */
     level.facts.spacing = 0.125 / 3;
@@ -97,26 +99,32 @@ static void published_rows(void)
         CU_ASSERT(isnan(verify_published(&scene, 16, "p")));
     }
     scene.overrides = NULL;
-    size_t shown[VERIFY_ERRORS];
+    size_t shown[VERIFY_ERRORS], count = 0;
     struct solver_error error;
-    CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 1);
+    CU_ASSERT(verify_shown(&scene, shown, &count, &error) && count == 1);
     scene.gate_count = 1;
     scene.gate[0] = (struct solver_gate_rule){.bounds = 2, .bound = {{"u_max", 1}, {"rate F", 1}}};
-    CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 3);
+    CU_ASSERT(verify_shown(&scene, shown, &count, &error) && count == 3);
     (void)snprintf(scene.scheme, sizeof scene.scheme, "ulsph"); /* has no F */
-    CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 2);
+    CU_ASSERT(verify_shown(&scene, shown, &count, &error) && count == 2);
     CU_ASSERT(shown[0] == verify_error_find("p") && shown[1] == verify_error_find("u_max"));
-    struct solver_scene bare = {.scheme = "ulsph"}; /* nothing is asked for: momentum and stress */
-    CU_ASSERT_EQUAL(verify_shown(&bare, shown, &error), 2);
+    struct solver_scene bare = {.oracle = "swinging-cube",
+                                .scheme = "ulsph"}; /* nothing is asked for: momentum and stress */
+    CU_ASSERT(verify_shown(&bare, shown, &count, &error) && count == 2);
     CU_ASSERT(shown[0] == verify_error_find("p") && shown[1] == verify_error_find("sigma"));
     bare.scheme[0] = '\0';
-    CU_ASSERT_EQUAL(verify_shown(&bare, shown, &error), 2);
+    CU_ASSERT(verify_shown(&bare, shown, &count, &error) && count == 2);
     CU_ASSERT(shown[0] == verify_error_find("p") && shown[1] == verify_error_find("P"));
-    struct solver_scene figures_alone = {.gate_count = 1,
-                                         .gate = {{.bounds = 1, .bound = {{"rate figure period", 1}}}}};
-    CU_ASSERT_EQUAL(verify_shown(&figures_alone, shown, &error), 2); /* then p and P, as if nothing were asked */
+    bare.beside.count = 1; /* and the differences from the configuration beside */
+    CU_ASSERT(verify_shown(&bare, shown, &count, &error) && count == 4 && shown[3] == VERIFY_BESIDE_ABS);
+    bare.oracle[0] = '\0'; /* there is nothing else */
+    CU_ASSERT(verify_shown(&bare, shown, &count, &error) && count == 2 && shown[0] == VERIFY_BESIDE);
+    struct solver_scene figures_alone = {
+        .oracle = "swinging-cube", .gate_count = 1, .gate = {{.bounds = 1, .bound = {{"rate figure period", 1}}}}};
+    CU_ASSERT(verify_shown(&figures_alone, shown, &count, &error) &&
+              count == 2); /* then p and P, as if nothing were asked */
     scene.published[0].value[0].name[0] = 'q';
-    CU_ASSERT_EQUAL(verify_shown(&scene, shown, &error), 0);
+    CU_ASSERT_FALSE(verify_shown(&scene, shown, &count, &error));
     CU_ASSERT_EQUAL(error.code, SOLVER_BAD_INPUT);
 }
 
