@@ -26,6 +26,13 @@ scheme = "ulsph"
 support, integrator, cfl = 2.4, "tvd-rk2", 0.4
 contact = { law = "predicted" }
 
+-- Momentum to round-off, no energy out of nothing, and no checkerboard: without density diffusion (--set ulsph.delta=0)
+-- there is one.
+gates = {
+    { ["indicator linear momentum"] = 1e-11, ["indicator energy gain"] = 1e-9, ["indicator clumping"] = 0.9,
+      ["indicator checkerboard"] = 0.35 },
+}
+
 view = {
     field = "sigma_xx", range = {-6e4, 6e4}, bands = 12, -- Pa
     direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 1, size = {1200, 700},
