@@ -235,7 +235,7 @@ static inline double dissipation(const struct solver_ulsph *work, size_t a, size
     double rho_b = work->rho[b];
     double square = dot(r, r);
     vec jump = load(work->v + b * LANES) - load(work->v + a * LANES);
-    if (work->terms.dissipation == SOLVER_ULSPH_VISCOSITY) {
+    if (work->v_gradient == NULL) { /* only the Riemann term has it */
         double approach = fmin(0.0, dot(jump, r));
         double c = 0.5 * (sound_speed(work, a) + sound_speed(work, b));
         return work->terms.viscosity * work->h * c * 2.0 / (rho_a + rho_b) * approach /

@@ -48,7 +48,7 @@ static void make(struct bodies *bodies, int dim, int edge, double ratio)
 
 static bool create(struct bodies *bodies, enum solver_contact_law law, double distance, struct solver_error *error)
 {
-    bodies->scene.contact_law = law;
+    bodies->scene.contact_law = (int)law;
     bodies->scene.contact_distance = distance;
     return solver_contact_create(&bodies->body, bodies->cloud->V, &bodies->contact, error);
 }
