@@ -111,22 +111,24 @@ static void draw_panel(FILE *file, const struct verify_study *study, const struc
 /* Which line is which, once for all panels. */
 static void draw_key(FILE *file, const struct verify_study *study)
 {
-    (void)fprintf(
-        file, "<p class=\"key\"><svg viewBox=\"0 0 30 10\"><polyline class=\"key exact\" points=\"1,5 29,5\"/></svg>"
-              "exact");
+    static const char mark[] = "<span><svg viewBox=\"0 0 30 10\"><line class=\"%s\" x1=\"15\" y1=\"0\" x2=\"15\" "
+                               "y2=\"10\"/></svg>%s</span>\n";
+    static const char line[] =
+        "<span><svg viewBox=\"0 0 30 10\"><polyline class=\"key %s\" points=\"1,5 29,5\"/></svg>";
+    (void)fprintf(file, "<p class=\"key\">");
+    (void)fprintf(file, line, "exact");
+    (void)fprintf(file, "exact</span>\n");
     for (size_t i = first_drawn(study); i < study->level_count; i++) {
         struct verify_axis spacing = verify_axis("h", "m");
         verify_axis_hold(&spacing, 0);
         verify_axis_hold(&spacing, study->level[i].facts.spacing);
         (void)verify_axis_close(&spacing, 0);
-        (void)fprintf(
-            file, "<svg viewBox=\"0 0 30 10\"><polyline class=\"key %s\" points=\"1,5 29,5\"/></svg>h = %.4g %sm",
-            style_of[study->level_count - 1 - i], study->level[i].facts.spacing / spacing.per, spacing.prefix);
+        (void)fprintf(file, line, style_of[study->level_count - 1 - i]);
+        (void)fprintf(file, "h = %.4g %sm</span>\n", study->level[i].facts.spacing / spacing.per, spacing.prefix);
     }
     if (study->truth->kind->fronts != NULL) {
-        (void)fprintf(file, "<svg viewBox=\"0 0 30 10\"><line class=\"front\" x1=\"15\" y1=\"0\" x2=\"15\" y2=\"10\"/>"
-                            "</svg>exact front<svg viewBox=\"0 0 30 10\"><line class=\"interface\" x1=\"15\" y1=\"0\" "
-                            "x2=\"15\" y2=\"10\"/></svg>interface of materials");
+        (void)fprintf(file, mark, "front", "exact front");
+        (void)fprintf(file, mark, "interface", "interface of materials");
     }
     (void)fprintf(file, "</p>\n");
 }

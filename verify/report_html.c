@@ -29,9 +29,10 @@ static const char style[] =
     "polyline.fine{stroke:#b03a8c;stroke-width:1.2}"
     "svg polyline.strain{stroke:#2f8f5b;stroke-width:1.4}svg polyline.total{stroke:#1b1f24;stroke-width:1.4}"
     ".panels{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(20rem,100%),1fr));gap:.5rem 1rem}"
-    ".key{font-size:.9rem;margin:.3rem 0}.key svg{width:30px;height:10px;margin:0 .4rem 0 1.4rem}"
-    ".key svg:first-child{margin-left:0}"
-    "@media print{body{font-size:10pt;max-width:none;margin:0}h2{break-after:avoid}svg,figure,tr{break-inside:avoid}"
+    ".key{font-size:.9rem;margin:.3rem 0}.key svg{width:30px;height:10px;margin-right:.4rem}"
+    "td{white-space:nowrap}td.help{white-space:normal}.key span{white-space:nowrap;margin-right:1.4rem}"
+    "@media print{body{font-size:9pt;max-width:none;margin:0;padding:0}table{font-size:8pt}th,td{padding:.15rem "
+    ".4rem}h2{break-after:avoid}svg,figure,tr{break-inside:avoid}"
     ".panels{grid-template-columns:repeat(3,1fr)}.row{grid-template-columns:repeat(2,1fr)}pre{white-space:pre-wrap}}";
 
 static void head(FILE *file, const struct verify_study *study)
