@@ -1,6 +1,7 @@
 /* The same bytes for any number of threads. */
 #include "tests/unit/runs.h"
 
+#include "solver/scheme.h"
 #include "solver/stencil.h"
 
 #include <omp.h>
@@ -106,6 +107,18 @@ static void test_every_stencil_and_set(void)
     }
 }
 
+static void test_every_scheme(void)
+{
+    for (const struct solver_scheme *const *scheme = solver_schemes(); *scheme != NULL; scheme++) {
+        for (size_t dim = 1; dim <= 3; dim++) {
+            char settings[128];
+            (void)snprintf(settings, sizeof settings, "scheme=%s material.model=linear-elastic integrator=euler",
+                           (*scheme)->name);
+            compare_threads(settings, dim);
+        }
+    }
+}
+
 static void test_other_choices(void)
 {
     static const char *const settings[] = {
@@ -113,7 +126,6 @@ static void test_other_choices(void)
         "stencil=sph evolved=pFJ reconstruction=least-squares integrator=ssp-rk3",
         "stencil=sbp4 evolved=pFJ reconstruction=none material.model=linear-elastic",
         "stencil=sbp2 evolved=pFHJ volume_flux=stress material.model=linear-elastic integrator=rk4",
-        "scheme=ulsph material.model=linear-elastic integrator=euler",
         "scheme=ulsph material.model=linear-elastic ulsph.dissipation=viscosity ulsph.tension=stress integrator=rk4",
     };
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
@@ -164,6 +176,7 @@ int main(void)
 {
     static const struct unit_test tests[] = {
         {"every stencil, evolved set and dimension", test_every_stencil_and_set},
+        {"every scheme and dimension", test_every_scheme},
         {"reconstructions, fluxes, integrators, perturbed clouds", test_other_choices},
         {"the comparison sees one bit", test_comparison_sees},
         {"number of threads", test_number},
