@@ -71,6 +71,12 @@ static double mass(const struct bodies *bodies, size_t a)
     return bodies->cloud->V[a] * bodies->constants[a].rho;
 }
 
+/* To the bit; what lies beyond dim is NaN in both. */
+static bool same(const struct bodies *bodies, const double *left, const double *right)
+{
+    return memcmp(left, right, bodies->cloud->count * LANES * sizeof *left) == 0;
+}
+
 /* Velocities at the end of a step of size dt that begins with v_rate: those that the predicted law has in mind. The
  * printed one has only v in mind, whatever else acts. */
 static void foresee(const struct bodies *bodies, const double *v_rate, double *foreseen)
@@ -183,7 +189,7 @@ static void test_two(void)
                 check_stopped(&bodies, foreseen, n, ratios[i / 6]);
                 stopped++;
             } else {
-                CU_ASSERT_EQUAL(memcmp(v_rate, bodies.v_rate, sizeof v_rate), 0);
+                CU_ASSERT(same(&bodies, v_rate, bodies.v_rate));
             }
         }
         CU_ASSERT(stopped > 5 && stopped < 40);
@@ -231,7 +237,7 @@ static void test_none(void)
             shake(&bodies, foreseen);
             memcpy(v_rate, bodies.v_rate, sizeof v_rate);
             act(&bodies);
-            CU_ASSERT_EQUAL(memcmp(v_rate, bodies.v_rate, sizeof v_rate), 0);
+            CU_ASSERT(same(&bodies, v_rate, bodies.v_rate));
         }
         CU_ASSERT(isnan(bodies.contact.begin));
         solver_contact_free(&bodies.contact);
@@ -303,9 +309,9 @@ static void test_threads(void)
             if (number == 1) {
                 memcpy(first, bodies.v_rate, sizeof first);
             }
-            CU_ASSERT_EQUAL(memcmp(first, bodies.v_rate, sizeof first), 0);
+            CU_ASSERT(same(&bodies, first, bodies.v_rate));
         }
-        CU_ASSERT(memcmp(first, v_rate, sizeof first) != 0);
+        CU_ASSERT_FALSE(same(&bodies, first, v_rate));
         drop(&bodies);
     }
     omp_set_num_threads(threads);
