@@ -23,29 +23,61 @@ endif()
 add_library(assay_main OBJECT ${CMAKE_SOURCE_DIR}/verify/main.c)
 target_link_libraries(assay_main PRIVATE assay_verify)
 
-# assay_mutant(NAME GATES WORD...): `verify WORD...` must fail, by these gates among others.
-function(assay_mutant name gates)
+# assay_mutate(NAME LIBRARY...): the broken source as objects, compiled as in each of the libraries; their names become
+# `objects`.
+function(assay_mutate name)
   set(mutant ${CMAKE_CURRENT_SOURCE_DIR}/mutants/${name}.mutant)
-  file(STRINGS ${mutant} source REGEX "^source: " LIMIT_COUNT 1)
-  string(REPLACE "source: " "" source "${source}")
   set(broken ${CMAKE_BINARY_DIR}/mutants/${name}/${source})
   set(script ${CMAKE_CURRENT_SOURCE_DIR}/mutants/mutate.py)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/mutants/${name}/solver)
   add_custom_command(OUTPUT ${broken} VERBATIM DEPENDS ${script} ${mutant} ${CMAKE_SOURCE_DIR}/${source}
     COMMAND ${Python3_EXECUTABLE} ${script} ${CMAKE_SOURCE_DIR} ${mutant} ${broken})
-  # As its library compiles it: all scenes of these tests are in 3D.
+  # Objects of several libraries come from one file: it must be there before the first of them is compiled.
+  add_custom_target(source_of_${name} DEPENDS ${broken})
+  set(objects "")
+  foreach(library ${ARGN})
+    add_library(mutated_${name}_${library} OBJECT ${broken})
+    add_dependencies(mutated_${name}_${library} source_of_${name})
+    target_compile_definitions(mutated_${name}_${library} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_DEFINITIONS>)
+    target_compile_options(mutated_${name}_${library} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_OPTIONS>)
+    target_include_directories(mutated_${name}_${library} PRIVATE ${CMAKE_SOURCE_DIR})
+    list(APPEND objects $<TARGET_OBJECTS:mutated_${name}_${library}>)
+  endforeach()
+  set(objects ${objects} PARENT_SCOPE)
+endfunction()
+
+# Sets `source` to the file that a mutant breaks.
+macro(assay_mutant_source name)
+  file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/mutants/${name}.mutant source REGEX "^source: " LIMIT_COUNT 1)
+  string(REPLACE "source: " "" source "${source}")
+endmacro()
+
+# assay_mutant(NAME GATES WORD...): `verify WORD...` must fail, by these gates among others.
+function(assay_mutant name gates)
+  assay_mutant_source(${name})
   set(library assay_solver)
   if(source MATCHES "_dim\\.c$")
-    set(library assay_solver_3d)
+    set(library assay_solver_3d) # all scenes of these tests are in 3D
   endif()
-  add_library(mutated_${name} OBJECT ${broken})
-  target_compile_definitions(mutated_${name} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_DEFINITIONS>)
-  target_compile_options(mutated_${name} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_OPTIONS>)
-  target_include_directories(mutated_${name} PRIVATE ${CMAKE_SOURCE_DIR})
-  add_executable(mutant_${name} $<TARGET_OBJECTS:mutated_${name}> $<TARGET_OBJECTS:assay_main>)
+  assay_mutate(${name} ${library})
+  add_executable(mutant_${name} ${objects} $<TARGET_OBJECTS:assay_main>)
   target_link_libraries(mutant_${name} PRIVATE assay_verify)
   assay_test(mustfail-${name} LABELS gate mustfail COMMAND ${mustfail} mustfail/${name} ${gates}
     $<TARGET_FILE:assay> ${ARGN} -- $<TARGET_FILE:mutant_${name}> ${ARGN})
+endfunction()
+
+# assay_unit_mutant(NAME UNIT TEST): this test of tests/unit/UNIT.c must fail, in any of the dimensions.
+function(assay_unit_mutant name unit test)
+  assay_mutant_source(${name})
+  set(libraries assay_solver)
+  if(source MATCHES "_dim\\.c$")
+    set(libraries assay_solver_1d assay_solver_2d assay_solver_3d)
+  endif()
+  assay_mutate(${name} ${libraries})
+  add_executable(mutant_${name} ${objects} unit/${unit}.c unit/unit.c)
+  target_link_libraries(mutant_${name} PRIVATE assay_solver PkgConfig::CUNIT)
+  assay_test(mustfail-${name} LABELS unit mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/mustfail_unit.sh ${test}
+    $<TARGET_FILE:test_${unit}> $<TARGET_FILE:mutant_${name}>)
 endfunction()
 
 assay_mutant(gradient-correction "p,P" ${quick_sph})
@@ -58,6 +90,15 @@ assay_mutant(sbp4-boundary-weight "p,P" ${quick_sbp4})
 assay_mutant(free-traction "p,P" ${quick_sbp2})
 assay_mutant(rk2-weight "p,P" ${quick_sbp2})
 assay_mutant(rk4-weight "p,P" ${quick_sbp4})
+
+assay_unit_mutant(ulsph-spin-sign solver_ulsph_gradients "linear velocity")
+assay_unit_mutant(ulsph-divergence-correction solver_ulsph_forces "work of forces is that of stress")
+assay_unit_mutant(ulsph-tension-factor solver_ulsph_forces "a constant tension")
+assay_unit_mutant(ulsph-riemann-sign solver_ulsph_forces "Riemann term")
+assay_unit_mutant(ulsph-diffusion-across solver_ulsph_diffusion "nothing crosses between materials")
+assay_unit_mutant(ulsph-kernel-height solver_ulsph_pairs "kernel")
+assay_unit_mutant(skin-late solver_skin "two that close in")
+assay_unit_mutant(contact-foresight solver_contact "two particles")
 
 # A mutant whose text is no longer in the source is an error: here, in a source that is broken already.
 assay_test(mustfail-rotten-mutant LABELS mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 1
