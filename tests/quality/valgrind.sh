@@ -9,6 +9,7 @@ declare -A skipped=(
   [test_oracles_mutations]="the self-check of test_oracles_conformance, again for each wrong formula: 50 s"
   [test_render_draw]="most of it is OSMesa, with machine code of its own making: 50 s"
   [test_solver_run_threads]="the runs of test_solver_run, three times each: minutes"
+  [test_solver_slab]="the loops of test_solver_run_composite and test_solver_ulsph_states, for thousands of steps: minutes"
   [test_solver_run_momentum]="a thousand steps of each run of test_solver_run: 90 s"
 )
 # Of these, one test.
