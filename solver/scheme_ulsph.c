@@ -374,10 +374,11 @@ static double energy(const void *of, size_t a)
 }
 
 static const struct solver_scheme_choice choices[] = {
-    {"ulsph.gradient = \"corrected\", \"plain\"", "with the corrective matrix L or without"},
-    {"ulsph.dissipation = \"riemann\", \"viscosity\", \"none\"", "R, AV"},
-    {"ulsph.tension = \"control\", \"stress\", \"none\"", "TIC, AS"},
-    {"ulsph.xsph, ulsph.delta", "transport velocity, density diffusion; 0: none"},
+    {"ulsph.gradient", "corrected by the matrix L, or plain"},
+    {"ulsph.dissipation", "riemann (R), viscosity (AV) or none"},
+    {"ulsph.tension", "control (TIC), stress (AS) or none"},
+    {"ulsph.xsph", "of the velocity that carries particles; 0: none"},
+    {"ulsph.delta", "density diffusion; 0: none"},
     {NULL, NULL},
 };
 
