@@ -67,12 +67,35 @@ static double stopping(const struct solver_contact *contact, const double *x, co
     return contact->mass[a] * contact->mass[b] / (contact->mass[a] + contact->mass[b]) * approach / (square * dt);
 }
 
+/* An upper bound of the speed [m/s] of any particle past any other. */
+static double relative_speed(const struct solver_contact *contact, const double *v, size_t lanes)
+{
+    double square = 0.0;
+    for (size_t i = 0; i < (size_t)contact->skin.cloud->dim; i++) {
+        double low = INFINITY;
+        double high = -INFINITY;
+        for (size_t a = 0; a < contact->skin.cloud->count; a++) {
+            low = fmin(low, v[a * lanes + i]);
+            high = fmax(high, v[a * lanes + i]);
+        }
+        square += (high - low) * (high - low);
+    }
+    return sqrt(square);
+}
+
 bool solver_contact_act(struct solver_contact *contact, const double *x, const double *v, size_t lanes, double t,
                         double dt, double *v_rate, struct solver_error *error)
 {
     const struct solver_graph *graph = &contact->skin.graph;
     if (contact->law == SOLVER_CONTACT_NONE) {
         return true;
+    }
+    double way = relative_speed(contact, v, lanes) * dt;
+    if (way > contact->distance) {
+        return solver_fail(error, SOLVER_BROKE_DOWN,
+                           "particles move past one another by up to %g m in one step, and bodies touch at %g m: they "
+                           "would go through one another unseen",
+                           way, contact->distance);
     }
     if (!solver_skin_update(&contact->skin, x, lanes, error)) {
         return false;

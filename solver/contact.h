@@ -22,7 +22,7 @@ bool solver_contact_create(const struct solver_body *body, const double *V, stru
                            struct solver_error *error);
 void solver_contact_free(struct solver_contact *contact);
 /* Adds the forces at positions x, velocities v and time t to the accelerations v_rate, in a step of size dt [s]; padded
- * vectors of `lanes`. */
+ * vectors of `lanes`. SOLVER_BROKE_DOWN where bodies could go through one another within the step. */
 bool solver_contact_act(struct solver_contact *contact, const double *x, const double *v, size_t lanes, double t,
                         double dt, double *v_rate, struct solver_error *error);
 

@@ -278,11 +278,31 @@ static void over_all(const struct system *system, loop *pass)
     }
 }
 
+/* A density that would change by more than itself within a step is beyond what the scheme follows: particles would
+ * leave their neighbours, or go past them, before any of them felt it. */
+static bool check_pace(const struct system *system, double dt, struct solver_error *error)
+{
+    const struct solver_cloud *cloud = system->body->cloud;
+    size_t found = cloud->count;
+#pragma omp parallel for schedule(static) reduction(min : found)
+    for (size_t a = 0; a < cloud->count; a++) {
+        bool hasty = dt * fabs(system->work.rho_rate[a]) > system->work.rho[a];
+        found = hasty && a < found ? a : found;
+    }
+    if (found == cloud->count) {
+        return true;
+    }
+    const double *X = cloud->X + found * (size_t)cloud->dim;
+    return solver_fail(error, SOLVER_BROKE_DOWN,
+                       "particle %zu at X = (%g, %g, %g) m: density rho would change by %g of itself within the step",
+                       found, X[0], cloud->dim > 1 ? X[1] : 0.0, cloud->dim > 2 ? X[2] : 0.0,
+                       dt * system->work.rho_rate[found] / system->work.rho[found]);
+}
+
 static bool evaluate(void *of, double t, double dt, struct solver_error *error)
 {
     struct system *system = of;
     struct solver_ulsph *work = &system->work;
-    (void)dt;
     if (!find_neighbours(system, error)) {
         return false;
     }
@@ -294,7 +314,7 @@ static bool evaluate(void *of, double t, double dt, struct solver_error *error)
     }
     over_all(system, system->loops->gradients);
     over_all(system, system->loops->rates);
-    return true;
+    return check_pace(system, dt, error);
 }
 
 static void refresh(void *of, size_t begin, size_t end)
