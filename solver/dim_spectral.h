@@ -34,29 +34,10 @@ static inline void rotate(double A[3][3], double Q[3][3], int i, int j)
         Q[k][j] = s * left + c * right;
     }
 }
-#endif
 
 /* sum max(lambda, 0) n (x) n over the principal directions of a symmetric tensor. */
 static inline struct tensor positive_part(struct tensor T)
 {
-#if DIM == 1
-    T.column[0][0] = fmax(T.column[0][0], 0.0);
-    return T;
-#elif DIM == 2
-    double mean = 0.5 * (T.column[0][0] + T.column[1][1]);
-    double radius = hypot(0.5 * (T.column[0][0] - T.column[1][1]), T.column[0][1]);
-    double high = mean + radius;
-    double low = mean - radius;
-    if (low >= 0.0) {
-        return T;
-    }
-    double scale = high > 0.0 ? high / (high - low) : 0.0; /* n (x) n = (T - low I) / (high - low) */
-    for (int I = 0; I < DIM; I++) {
-        T.column[I][I] -= low;
-        T.column[I] *= scale;
-    }
-    return T;
-#else
     double A[3][3];
     double Q[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     for (int i = 0; i < 3; i++) {
@@ -79,7 +60,32 @@ static inline struct tensor positive_part(struct tensor T)
         }
     }
     return positive;
-#endif
 }
+
+#elif DIM == 2
+static inline struct tensor positive_part(struct tensor T)
+{
+    double mean = 0.5 * (T.column[0][0] + T.column[1][1]);
+    double radius = hypot(0.5 * (T.column[0][0] - T.column[1][1]), T.column[0][1]);
+    double high = mean + radius;
+    double low = mean - radius;
+    if (low >= 0.0) {
+        return T;
+    }
+    double scale = high > 0.0 ? high / (high - low) : 0.0; /* n (x) n = (T - low I) / (high - low) */
+    for (int I = 0; I < DIM; I++) {
+        T.column[I][I] -= low;
+        T.column[I] *= scale;
+    }
+    return T;
+}
+
+#else
+static inline struct tensor positive_part(struct tensor T)
+{
+    T.column[0][0] = fmax(T.column[0][0], 0.0);
+    return T;
+}
+#endif
 
 #endif

@@ -345,11 +345,9 @@ static const char *complaint(const void *of, size_t a)
                           : "deviatoric stress S is not finite";
 }
 
-/* Pressure as the paper has it, positive in compression (eq. 5). */
 static double pressure_of(const struct system *system, size_t a)
 {
-    const struct solver_material_constants *of_a = constants_of(system, a);
-    return of_a->kappa * (system->work.rho[a] / of_a->rho - 1.0);
+    return solver_ulsph_pressure(constants_of(system, a), system->work.rho[a]);
 }
 
 /* S with its components out of the plane or line: it has no trace. */

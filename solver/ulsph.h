@@ -42,6 +42,12 @@ struct solver_ulsph {
     double *rho_gradient; /* vector (eq. 35) */
 };
 
+/* p [Pa], positive in compression, at density rho: c0^2 (rho - rho0) with c0^2 = K / rho0 (eq. 5). */
+static inline double solver_ulsph_pressure(const struct solver_material_constants *constants, double rho)
+{
+    return constants->kappa * (rho / constants->rho - 1.0);
+}
+
 struct solver_ulsph_loops {
     size_t lanes;
     /* What a particle has of its own: volumes, impedance. Before anything else. */

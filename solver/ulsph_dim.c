@@ -72,11 +72,11 @@ static void volumes(const struct solver_ulsph *work, size_t begin, size_t end)
     }
 }
 
-/* sigma = -p I + S, p = c0^2 (rho - rho0) with c0^2 = kappa / rho0 (eq. 3, 5). */
+/* sigma = -p I + S (eq. 3). */
 static inline struct tensor cauchy_stress(const struct solver_ulsph *work, size_t a)
 {
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
-    double p = of_a->kappa * (work->rho[a] / of_a->rho - 1.0);
+    double p = solver_ulsph_pressure(of_a, work->rho[a]);
     struct tensor sigma = load_tensor(work->S + a * TENSOR);
     for (int I = 0; I < DIM; I++) {
         sigma.column[I][I] -= p;
@@ -99,32 +99,44 @@ static inline struct tensor corrective_matrix(struct tensor M)
     return L;
 }
 
+/* What a particle gathers from its neighbours by way of the kernel. */
+struct gathered {
+    struct tensor M; /* sum V s r (x) r */
+    vec smoothing;   /* of eq. 14, over epsilon */
+    double colour;   /* eq. 52 */
+};
+
+/* Makes the pair records of a particle, and its sums. */
+static inline struct gathered gather(const struct solver_ulsph *work, size_t a, double height)
+{
+    double per_h = 1.0 / work->h;
+    vec x_a = load(work->x + a * LANES);
+    vec v_a = load(work->v + a * LANES);
+    struct gathered sums = {.colour = work->volume[a] * height};
+    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+        size_t b = work->neighbour[ab];
+        double *pair = work->pair + ab * PAIR;
+        vec r = load(work->x + b * LANES) - x_a;
+        double slope;
+        double w = kernel(height, work->h, sqrt(dot(r, r)) * per_h, &slope);
+        for (int I = 0; I < DIM; I++) {
+            pair[I] = r[I];
+            sums.M.column[I] += (work->cell[b] * slope * r[I]) * r;
+        }
+        pair[SLOPE] = slope;
+        pair[KERNEL] = w;
+        sums.colour += work->volume[b] * w;
+        sums.smoothing += (2.0 * work->mass[b] * w / (work->rho[a] + work->rho[b])) * (load(work->v + b * LANES) - v_a);
+    }
+    return sums;
+}
+
 static void geometry(const struct solver_ulsph *work, size_t begin, size_t end)
 {
     double height = normalisation(work->h);
-    double per_h = 1.0 / work->h;
     for (size_t a = begin; a < end; a++) {
-        vec x_a = load(work->x + a * LANES);
-        vec v_a = load(work->v + a * LANES);
-        struct tensor M = {{{0}}};
-        vec smoothing = {0};
-        double colour = work->volume[a] * height;
-        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
-            size_t b = work->neighbour[ab];
-            double *pair = work->pair + ab * PAIR;
-            vec r = load(work->x + b * LANES) - x_a;
-            double slope;
-            double w = kernel(height, work->h, sqrt(dot(r, r)) * per_h, &slope);
-            for (int I = 0; I < DIM; I++) {
-                pair[I] = r[I];
-                M.column[I] += (work->cell[b] * slope * r[I]) * r;
-            }
-            pair[SLOPE] = slope;
-            pair[KERNEL] = w;
-            colour += work->volume[b] * w;
-            smoothing += (2.0 * work->mass[b] * w / (work->rho[a] + work->rho[b])) * (load(work->v + b * LANES) - v_a);
-        }
-        struct tensor L = work->L != NULL ? corrective_matrix(M) : identity();
+        struct gathered sums = gather(work, a, height);
+        struct tensor L = work->L != NULL ? corrective_matrix(sums.M) : identity();
         struct tensor sigma = cauchy_stress(work, a);
         store_tensor(work->sigma_L + a * TENSOR, times(sigma, L));
         if (work->L != NULL) {
@@ -134,10 +146,10 @@ static void geometry(const struct solver_ulsph *work, size_t begin, size_t end)
             store_tensor(work->tensile_L + a * TENSOR, times(positive_part(sigma), L));
         }
         if (work->transport != work->v) {
-            store(work->transport + a * LANES, v_a + work->terms.xsph * smoothing);
+            store(work->transport + a * LANES, load(work->v + a * LANES) + work->terms.xsph * sums.smoothing);
         }
         if (work->colour != NULL) {
-            work->colour[a] = colour;
+            work->colour[a] = sums.colour;
         }
     }
 }
