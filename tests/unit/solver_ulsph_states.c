@@ -134,19 +134,19 @@ static void test_threads(void)
     static const char *const blocks[] = {"dim=1 n=600", "dim=2 n=23", "dim=3 n=7"}; /* three pieces of work or more */
     static const char *const terms[] = {"integrator=tvd-rk2",
                                         "integrator=rk4 ulsph.dissipation=viscosity ulsph.tension=stress"};
-    static const int threads[] = {2, 3, 5};
+    static const int threads[] = {5, 3, 2};
     for (size_t i = 0; i < 6; i++) {
         struct sample alone = start(ulsph_halves, "%s %s threads=1", blocks[i / 2], terms[i % 2]);
         struct sample begin = start(ulsph_halves, "%s %s threads=1", blocks[i / 2], terms[i % 2]);
         size_t pairs = solver_run_facts(alone.run).pairs;
         set_wild(&begin);
         ulsph_copy(&begin, &alone);
-        advance(&alone, 6);
+        advance(&alone, 4);
         CU_ASSERT_NOT_EQUAL(solver_run_facts(alone.run).pairs, pairs); /* listed anew on the way */
         for (size_t t = 0; t < sizeof threads / sizeof *threads; t++) {
             struct sample together = start(ulsph_halves, "%s %s threads=%d", blocks[i / 2], terms[i % 2], threads[t]);
             ulsph_copy(&begin, &together);
-            advance(&together, 6);
+            advance(&together, 4);
             CU_ASSERT(same_state(&alone, &together));
             finish(&together);
         }
