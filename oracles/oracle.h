@@ -46,6 +46,12 @@ struct oracle_figure {
 };
 enum { ORACLE_FIGURES = 16 };
 
+/* A scalar that the state has beside the fields all oracles have: "plastic_strain", "internal_energy". */
+struct oracle_extra {
+    const char *name, *unit, *help;
+};
+enum { ORACLE_EXTRAS = 8 };
+
 /* Result of a self-check: one line per law, each a dimensionless residual and the bound it must stay under. */
 struct oracle_check {
     const char *law; /* "dp/dt = Div P", "initial displacement", "traction on X1", "second evaluation: u", ... */
@@ -62,11 +68,17 @@ struct oracle_kind {
     int dim;
     enum oracle_smoothness smoothness; /* of the worst front there may be */
     bool finite_strain;                /* no linear elasticity, whose stresses are all alike: see oracle_cauchy */
+    const char *awaits; /* what the solver lacks to be judged by it: "plasticity"; NULL: nothing */
     const struct oracle_parameter *parameter; /* ends with a NULL name */
+    const struct oracle_extra *extra;         /* ends with a NULL name; NULL: none */
     /* Values in the order of `parameter`, already within their intervals. */
     bool (*create)(const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
     void (*destroy)(struct oracle *oracle);
     void (*state)(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state);
+    /* The extra scalars at X and t, in the order of `extra`; NULL if there are none. */
+    void (*extras)(const struct oracle *oracle, const double X[3], double t, double value[ORACLE_EXTRAS]);
+    /* Distance [m] of X from the reference body: 0 within it and on its faces; axes from `dim` on do not count. */
+    double (*outside)(const struct oracle *oracle, const double X[3]);
     /* Total energies of the body [J]; of a one-dimensional body per unit of its cross-section [J/m^2]. */
     void (*energy)(const struct oracle *oracle, double t, double *kinetic, double *strain);
     /* All fronts within the body at time t, ordered by X, and how many there are. ORACLE_TOO_MANY_FRONTS: more than
