@@ -73,6 +73,10 @@ struct oracle_kind {
     const struct oracle_extra *extra;         /* ends with a NULL name; NULL: none */
     /* Values in the order of `parameter`, already within their intervals. */
     bool (*create)(const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
+    /* In place of `create`, for kinds that share one; `about` is theirs. */
+    bool (*create_as)(const struct oracle_kind *kind, const double *value, struct oracle **oracle,
+                      char why[ORACLE_WHY]);
+    const void *about;
     void (*destroy)(struct oracle *oracle);
     void (*state)(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state);
     /* The extra scalars at X and t, in the order of `extra`; NULL if there are none. */
