@@ -52,10 +52,9 @@ static double off_phase(double z, void *context)
 static bool set_phase(struct phased *at, double phase)
 {
     const double most = 2 * log(TUBE_STRETCH);
-    gsl_function function = {.function = off_phase, .params = at};
     double z = 0, slope;
     at->phase = phase;
-    if (sin(phase) * at->root_energy != 0 && !root_between(&function, -most, most, &z)) {
+    if (sin(phase) * at->root_energy != 0 && !root_between(off_phase, at, -most, most, &z)) {
         return false;
     }
     at->y = expm1(z);
@@ -135,26 +134,29 @@ static void measure(struct timetable *table)
 }
 
 /* P = mu F - p F^-T, p by way of P_zz = mu - p, and F^-T the cofactors, without the unit matrix of either. */
-static void neo_hooke(const struct self_check_body *body, const struct oracle_state *state, const double G[9],
-                      double P[9])
+static void neo_hooke(const struct self_check *check, const double X[3], double t, const double G[9], double P[9])
 {
+    struct oracle_state state;
+    check->kind->state(check->oracle, X, t, &state);
     double less[9] = {G[4], -G[3], 0, -G[1], G[0], 0, 0, 0, 0}; /* F^-T - I */
     for (int i = 0; i < 9; i++) {
         double unit = i % 4 == 0 ? 1 : 0;
-        P[i] = body->mu * (G[i] - less[i]) + state->P[8] * (unit + less[i]);
+        P[i] = check->mu * (G[i] - less[i]) + state.P[8] * (unit + less[i]);
     }
 }
 
 /* mu/2 (l - 1/l)^2 of the stretch l, by way of mu (l^2 - 1/l^2), the difference of the stresses in the plane. */
-static double neo_hooke_energy(const struct self_check_body *body, const struct oracle_state *state)
+static double neo_hooke_energy(const struct self_check *check, const double X[3], double t,
+                               const struct oracle_state *state)
 {
+    (void)X, (void)t;
     double sigma[9];
     for (int i = 0; i < 9; i++) {
         const double *P = state->P + (ptrdiff_t)(i / 3) * 3, *F = state->F + (ptrdiff_t)(i % 3) * 3;
-        sigma[i] = (P[0] * F[0] + P[1] * F[1] + P[2] * F[2]) / body->mu;
+        sigma[i] = (P[0] * F[0] + P[1] * F[1] + P[2] * F[2]) / check->mu;
     }
     double difference = hypot(sigma[0] - sigma[4], sigma[1] + sigma[3]);
-    return body->mu / 2 * difference * difference / (2 + hypot(2, difference));
+    return check->mu / 2 * difference * difference / (2 + hypot(2, difference));
 }
 
 /* The radial stress, in mu, from the outer face inwards, along the logarithm of r where the tube is narrower than in

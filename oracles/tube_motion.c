@@ -93,12 +93,11 @@ static double z_between(double t, void *context)
 /* When z rises through zero between two nodes; they are known to lie on either side. */
 static bool rises(struct tube_node *node, double *t)
 {
-    gsl_function function = {.function = z_between, .params = node};
     if (node[0].z == 0 || node[1].z == 0) {
         *t = node[node[0].z == 0 ? 0 : 1].t;
         return true;
     }
-    return root_between(&function, node[0].t, node[1].t, t);
+    return root_between(z_between, node, node[0].t, node[1].t, t);
 }
 
 static bool add(struct tube_motion *motion, size_t *room, struct tube_node node, char why[ORACLE_WHY])
@@ -162,8 +161,7 @@ static double above_turn(double z, void *context)
 static bool turns(struct tube_motion *motion, double sign, double *z)
 {
     struct turn turn = {motion->wall, motion->energy, sign};
-    gsl_function function = {.function = above_turn, .params = &turn};
-    bool found = root_between(&function, 0, 2 * log(TUBE_STRETCH), z);
+    bool found = root_between(above_turn, &turn, 0, 2 * log(TUBE_STRETCH), z);
     *z *= sign;
     return found;
 }
