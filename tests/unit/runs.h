@@ -42,8 +42,8 @@ struct sample {
     struct solver_error error;
 };
 
-/* The block with `more` appended and overrides KEY=VALUE, separated by blanks. On failure run is NULL. */
-static inline struct sample try_start(const char *more, const char *format, va_list arguments)
+/* The scene alone: the block with `more` appended and overrides KEY=VALUE, separated by blanks. */
+static inline struct sample load_scene(const char *more, const char *format, va_list arguments)
 {
     struct sample sample = {.run = NULL};
     char path[] = "/tmp/assay-run-XXXXXX";
@@ -67,6 +67,13 @@ static inline struct sample try_start(const char *more, const char *format, va_l
         CU_FAIL_FATAL("the scene is refused");
     }
     unlink(path);
+    return sample;
+}
+
+/* On failure run is NULL. */
+static inline struct sample try_start(const char *more, const char *format, va_list arguments)
+{
+    struct sample sample = load_scene(more, format, arguments);
     (void)solver_run_create(sample.scene, &sample.run, &sample.error);
     return sample;
 }
