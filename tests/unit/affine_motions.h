@@ -5,6 +5,8 @@
 #include "solver/small.h"
 #include "tests/unit/motions.h"
 
+#include <gsl/gsl_eigen.h>
+
 /* How a body moves while it is looked at. */
 enum affine_pace {
     AFFINE_HELD,
@@ -105,8 +107,27 @@ static inline void affine_release(struct motion *motion, const size_t *open, siz
     CU_ASSERT_FATAL(size < 1e-13); /* else what the faces allow was not found */
 }
 
+/* Smallest eigenvalue of the tangent at time t, over rho cp^2: below zero where loads press the body, which may then
+ * turn, wrinkle or buckle. */
+static inline double affine_firmness(const struct motion *motion, double t)
+{
+    double F[9], A[81], modulus = motion->constants.rho * motion->constants.cp * motion->constants.cp;
+    size_t entries = motion->dim * motion->dim;
+    motion->gradient(motion, t, 0, F);
+    motion->material->tangent(&motion->constants, F, A);
+    gsl_matrix_view matrix = gsl_matrix_view_array(A, entries, entries);
+    gsl_vector *values = gsl_vector_alloc(entries);
+    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(entries);
+    CU_ASSERT_FATAL(values != NULL && work != NULL);
+    gsl_eigen_symm(&matrix.matrix, values, work);
+    double least = gsl_vector_min(values) / modulus;
+    gsl_eigen_symm_free(work);
+    gsl_vector_free(values);
+    return least;
+}
+
 /* A motion that fits the case and lasts `duration` [s]; material and constants are set. */
-static inline void affine_make(const struct affine_case *of, double duration, struct motion *motion)
+static inline void affine_draw(const struct affine_case *of, double duration, struct motion *motion)
 {
     size_t dim = motion->dim, open[9], count = affine_open(of, dim, open);
     double from[9], to[9], R[9], *F = motion->start;
@@ -143,6 +164,20 @@ static inline void affine_make(const struct affine_case *of, double duration, st
     if (count > 0) {
         affine_release(motion, open, count);
     }
+}
+
+/* The same, and what loads hold is held firmly: where they press it so hard that every unit of round-off may grow fast,
+ * the motion is drawn again. Faces that are led keep a body in shape however hard it is pressed. */
+static inline void affine_make(const struct affine_case *of, double duration, struct motion *motion)
+{
+    double firmness = -INFINITY;
+    for (int round = 0; round < 10000 && firmness < -0.05; round++) {
+        affine_draw(of, duration, motion);
+        firmness = affine_has(of, motion->dim, "TF")
+                       ? fmin(affine_firmness(motion, 0.0), affine_firmness(motion, duration))
+                       : 0.0;
+    }
+    CU_ASSERT_FATAL(firmness >= -0.05);
 }
 
 #endif
