@@ -159,4 +159,22 @@ static inline void expect_below(const char *what, double value, double bound)
     CU_ASSERT(holds);
 }
 
+/* The words of a list, separated by blanks, but for one; false if there is no such word. */
+static inline bool without_word(const char *words, size_t left_out, char *out, size_t room)
+{
+    bool found = false;
+    size_t used = 0;
+    out[0] = '\0';
+    for (size_t i = 0; *words != '\0'; i++) {
+        size_t length = strcspn(words, " ");
+        found = found || i == left_out;
+        if (i != left_out) {
+            used += (size_t)snprintf(out + used, room - used, "%s%.*s", used > 0 ? " " : "", (int)length, words);
+        }
+        CU_ASSERT_FATAL(used < room);
+        words += length + strspn(words + length, " ");
+    }
+    return found;
+}
+
 #endif
