@@ -203,6 +203,7 @@ static void every_case(struct setting setting, struct tally *tally)
             setting.evolved = (int)((m + i) % 3);
             hold_to_it(&affine_cases[i], setting, tally);
         }
+        tally->turn++; /* so that a case meets every integrator, whatever the length of both tables */
     }
 }
 
