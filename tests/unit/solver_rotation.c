@@ -314,9 +314,13 @@ static void test_needed(void)
 int main(void)
 {
     static const struct unit_test tests[] = {
-        {"the rotation itself", test_the_rotation},    {"materials at F = R", test_materials},
-        {"F of a cell led through a turn", test_cell}, {"cells and their stress through a turn", test_cells},
-        {"bodies through a turn", test_bodies},        {"what a claim needs is needed", test_needed},
+        {"the rotation itself", test_the_rotation},
+        {"materials at F = R", test_materials},
+        {"F of a cell led through a turn", test_cell},
+        {"cells and their stress through a turn, 2D", test_cells_2d},
+        {"cells and their stress through a turn, 3D", test_cells_3d},
+        {"bodies through a turn", test_bodies},
+        {"what a claim needs is needed", test_needed},
     };
     return unit_main("rotation", tests, sizeof tests / sizeof *tests);
 }
