@@ -28,6 +28,7 @@ static const struct affine_case affine_cases[] = {
     {"stretched, sheared and turned by tractions", "TTTTTT", AFFINE_GENERAL},
     {"led by all its faces", "MMMMMM", AFFINE_GENERAL},
     {"clamped at one face, drawn by the others", "CMTMTT", AFFINE_SHEARING},
+    {"drawn by rollers beside tractions", "RRTRTM", AFFINE_GENERAL},
     {"stretched between planes of symmetry", "STSMST", AFFINE_STRETCHING},
     {"free across, held by a clamp, tractions and a face at rest", "FFTCMT", AFFINE_HELD},
     {"one face free beside a traction, drifting", "FTTTTT", AFFINE_DRIFTING},
@@ -173,7 +174,7 @@ static inline void affine_make(const struct affine_case *of, double duration, st
     double firmness = -INFINITY;
     for (int round = 0; round < 10000 && firmness < -0.05; round++) {
         affine_draw(of, duration, motion);
-        firmness = affine_has(of, motion->dim, "TF")
+        firmness = affine_has(of, motion->dim, "TFR")
                        ? fmin(affine_firmness(motion, 0.0), affine_firmness(motion, duration))
                        : 0.0;
     }

@@ -1,14 +1,14 @@
-/* Motions x = F(t) X + t drift of the unit block, whose velocity, body force rho F'' X and tractions P(F(t)) N the
- * scene gets from C, so that every material of the table can be asked. */
+/* Motions x = F(t) X + t drift of the unit block, with the body force rho F'' X, the velocities and the tractions
+ * P(F(t)) N that belong to them, for every material of the table. */
 #ifndef TESTS_MOTIONS_H
 #define TESTS_MOTIONS_H
 
-#include "solver/scene_internal.h"
 #include "tests/unit/random_tensors.h"
 #include "tests/unit/runs.h"
 
 struct motion {
     size_t dim;
+    const char *faces; /* letters of motion_scene */
     const struct solver_material *material;
     struct solver_material_constants constants; /* the scene's, unless set before */
     /* d^order F / dt^order at time t, [dim][dim] */
@@ -47,96 +47,76 @@ static inline void motion_place(const struct motion *motion, const double *X, do
     }
 }
 
-/* What the scene is told when it asks for a formula: f(X, Y, Z, t). */
-static inline int motion_answer(lua_State *L)
+/* A tensor of [dim][dim] or a vector in 3D, as scenes are told. */
+static inline void motion_start_at(const void *context, const double X[3], double u[3], double v[3], double F[9])
 {
-    const struct motion *motion = lua_touserdata(L, lua_upvalueindex(1));
-    enum solver_formula formula = (enum solver_formula)lua_tointeger(L, lua_upvalueindex(2));
-    const struct solver_scene *scene = scene_lua_of(L)->scene;
-    size_t count = motion->dim;
-    const double X[3] = {lua_tonumber(L, 1), lua_tonumber(L, 2), lua_tonumber(L, 3)};
-    double t = lua_tonumber(L, 4), value[9] = {0}, P[9];
-    if (formula == SOLVER_INITIAL_F) {
-        motion->gradient(motion, 0.0, 0, value);
-        count *= count;
-    } else if (formula >= SOLVER_FACE_X0 && scene->face[formula - SOLVER_FACE_X0] == SOLVER_TRACTION) {
-        size_t face = (size_t)(formula - SOLVER_FACE_X0);
+    const struct motion *motion = context;
+    double in_plane[9];
+    motion->gradient(motion, 0.0, 0, in_plane);
+    motion_place(motion, X, 0.0, 0, u);
+    motion_place(motion, X, 0.0, 1, v);
+    for (size_t i = 0; i < motion->dim; i++) {
+        u[i] -= X[i];
+        for (size_t j = 0; j < motion->dim; j++) {
+            F[3 * i + j] = in_plane[i * motion->dim + j];
+        }
+    }
+}
+
+/* Body force; velocity of faces that are led; traction of those that are loaded, all of P N on rollers too. */
+static inline void motion_drive(const void *context, enum solver_formula formula, const double X[3], double t,
+                                double value[3])
+{
+    const struct motion *motion = context;
+    size_t face = (size_t)(formula - SOLVER_FACE_X0) % SOLVER_FACES;
+    bool loaded = formula >= SOLVER_FACE_X0 && (formula > SOLVER_FACE_Z1 || motion->faces[face] == 'T');
+    double P[9];
+    if (loaded) {
         motion_stress(motion, t, P);
-        for (size_t i = 0; i < count; i++) {
-            value[i] = (face % 2 == 0 ? -1.0 : 1.0) * P[i * count + face / 2];
+        for (size_t i = 0; i < motion->dim; i++) {
+            value[i] = (face % 2 == 0 ? -1.0 : 1.0) * P[i * motion->dim + face / 2];
         }
-    } else {
-        int order = formula == SOLVER_INITIAL_DISPLACEMENT ? 0 : formula == SOLVER_BODY_FORCE ? 2 : 1;
-        motion_place(motion, X, t, order, value);
-        for (size_t i = 0; i < count; i++) {
-            value[i] = order == 0 ? value[i] - X[i] : order == 2 ? motion->constants.rho * value[i] : value[i];
-        }
+        return;
     }
-    for (size_t i = 0; i < count; i++) {
-        lua_pushnumber(L, value[i]);
+    motion_place(motion, X, t, formula == SOLVER_BODY_FORCE ? 2 : 1, value);
+    for (size_t i = 0; i < motion->dim && formula == SOLVER_BODY_FORCE; i++) {
+        value[i] *= motion->constants.rho;
     }
-    return (int)count;
 }
 
-/* Replaces every formula that the scene gives. */
-static inline int motion_replace(lua_State *L)
+/* `faces`: a letter for each of X0, X1, Y0, ...: Free, Symmetric, sKew-symmetric, Clamped, Traction, Motion, Roller. */
+static inline void motion_scene(const struct motion *motion, char *out, size_t room)
 {
-    struct motion *motion = lua_touserdata(L, 1);
-    for (int formula = 0; formula < SOLVER_FORMULAS; formula++) {
-        if (solver_scene_has(scene_lua_of(L)->scene, (enum solver_formula)formula)) {
-            lua_pushlightuserdata(L, motion);
-            lua_pushinteger(L, formula);
-            lua_pushcclosure(L, motion_answer, 2);
-            scene_lua_keep_formula(L, (enum solver_formula)formula);
-        }
-    }
-    return 0;
-}
-
-/* `faces`: a letter for each of X0, X1, Y0, ...: Free, Symmetric, sKew-symmetric, Clamped, Traction, Motion. A body
- * force acts where the motion has an acceleration. */
-static inline void motion_scene(const struct motion *motion, const char *faces, char *out, size_t room)
-{
-    static const char letters[] = "FSKCTM";
-    static const char *const kinds[] = {"free", "symmetric", "skew-symmetric", "clamped", "traction", "motion"};
-    double second[9];
-    motion->gradient(motion, 0.0, 2, second);
-    bool accelerates = largest_entry(motion->dim * motion->dim, second) > 0.0;
-    static const char zeros[] = "0, 0, 0, 0, 0, 0, 0, 0, 0"; /* formulas are tried before they are replaced */
-    size_t used =
-        (size_t)snprintf(out, room,
-                         "local function f() return first(0, 0, 0) end\n"
-                         "initial = { displacement = f, velocity = f, F = function() return %.*s end }\n"
-                         "%sfaces = {",
-                         (int)(3 * motion->dim * motion->dim - 2), zeros, accelerates ? "body_force = f\n" : "");
+    static const char letters[] = "FSKCTMR";
+    static const char *const kinds[] = {"free",     "symmetric", "skew-symmetric", "clamped",
+                                        "traction", "motion",    "roller"};
+    size_t used = (size_t)snprintf(out, room, "initial = { from = 'oracle' }\nloads = { from = 'oracle' }\nfaces = {");
     for (size_t face = 0; face < 2 * motion->dim; face++) {
-        const char *letter = strchr(letters, faces[face]);
+        const char *letter = strchr(letters, motion->faces[face]);
         CU_ASSERT_FATAL(letter != NULL && *letter != '\0');
-        used += (size_t)snprintf(out + used, room - used, " %c%zu = { kind = '%s'%s },", "XYZ"[face / 2], face % 2,
-                                 kinds[letter - letters], letter - letters > 3 ? ", value = f" : "");
+        used += (size_t)snprintf(out + used, room - used, " %c%zu = '%s',", "XYZ"[face / 2], face % 2,
+                                 kinds[letter - letters]);
     }
     used += (size_t)snprintf(out + used, room - used, " }\n");
     CU_ASSERT_FATAL(used < room);
 }
 
 /* A run that sets out on the motion, which must outlive it; on failure run is NULL. */
-static inline struct sample motion_try(struct motion *motion, const char *faces, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-static inline struct sample motion_try(struct motion *motion, const char *faces, const char *format, ...)
+static inline struct sample motion_try(struct motion *motion, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+static inline struct sample motion_try(struct motion *motion, const char *format, ...)
 {
-    char text[2048];
+    char text[1024];
     va_list arguments;
-    motion_scene(motion, faces, text, sizeof text);
+    motion_scene(motion, text, sizeof text);
     va_start(arguments, format);
     struct sample sample = load_scene(text, format, arguments);
     va_end(arguments);
     if (motion->constants.rho == 0.0) {
         motion->constants = solver_material_constants(sample.scene->E, sample.scene->nu, sample.scene->rho);
     }
-    if (!scene_lua_protect(sample.scene->lua, motion_replace, motion, &sample.error)) {
-        printf("\n    %s", sample.error.text);
-        CU_FAIL_FATAL("the scene does not take the motion");
-    }
+    solver_scene_start_from(sample.scene, motion_start_at, motion);
+    solver_scene_drive_from(sample.scene, motion_drive, motion, NULL);
     (void)solver_run_create(sample.scene, &sample.run, &sample.error);
     return sample;
 }

@@ -130,7 +130,8 @@ static void expected_gradient(const struct motion *motion, double t, double comp
 static void lead_cell(const struct solver_integrator *method, size_t dim)
 {
     struct motion motion = rotation(dim, "linear-elastic", 1.0, 0.0);
-    struct sample sample = motion_try(&motion, "MMMMMM",
+    motion.faces = "MMMMMM";
+    struct sample sample = motion_try(&motion,
                                       "dim=%zu material.model=linear-elastic stencil=sbp2 n=1 cfl=0.1 evolved=pF "
                                       "integrator=%s",
                                       dim, method->name);
@@ -194,8 +195,9 @@ static double stress_of_turn(const struct body *body, const char *material, cons
                              double refine, double *theta)
 {
     struct motion motion = rotation(dim, material, 1.0, body->strain);
-    struct sample sample = motion_try(&motion, body->faces, "dim=%zu material.model=%s cfl=%g t_end=%.17g %s %s", dim,
-                                      material, refine * body->cfl, turn, body->settings, settings);
+    motion.faces = body->faces;
+    struct sample sample = motion_try(&motion, "dim=%zu material.model=%s cfl=%g t_end=%.17g %s %s", dim, material,
+                                      refine * body->cfl, turn, body->settings, settings);
     CU_ASSERT_PTR_NOT_NULL_FATAL(sample.run);
     struct solver_output output = output_of(&sample);
     size_t size = output.cloud->count * dim * dim * sizeof *output.sigma;
