@@ -134,7 +134,7 @@ static inline double motion_worse(const struct motion_errors *errors)
     const double all[] = {errors->v, errors->u, errors->F, errors->H, errors->J, errors->P};
     double worst = 0.0;
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        worst = isnan(all[i]) || all[i] > worst ? all[i] : worst;
+        keep_larger(&worst, all[i]);
     }
     return worst;
 }
@@ -155,13 +155,13 @@ static inline struct motion_errors motion_judge(struct sample *sample, const str
         for (size_t i = 0; i < dim; i++) {
             x[i] -= X[i];
         }
-        errors.u = fmax(errors.u, largest_difference(dim, output.u + a * dim, x));
-        errors.v = fmax(errors.v, largest_difference(dim, output.v + a * dim, v));
+        keep_larger(&errors.u, largest_difference(dim, output.u + a * dim, x));
+        keep_larger(&errors.v, largest_difference(dim, output.v + a * dim, v));
         if (output.F != NULL) {
-            errors.F = fmax(errors.F, largest_difference(dim * dim, output.F + a * dim * dim, F));
-            errors.H = fmax(errors.H, largest_difference(dim * dim, output.H + a * dim * dim, H));
-            errors.P = fmax(errors.P, largest_difference(dim * dim, output.P + a * dim * dim, P));
-            errors.J = fmax(errors.J, fabs(output.J[a] - J));
+            keep_larger(&errors.F, largest_difference(dim * dim, output.F + a * dim * dim, F));
+            keep_larger(&errors.H, largest_difference(dim * dim, output.H + a * dim * dim, H));
+            keep_larger(&errors.P, largest_difference(dim * dim, output.P + a * dim * dim, P));
+            keep_larger(&errors.J, fabs(output.J[a] - J));
         }
     }
     errors.v /= motion->constants.cp;

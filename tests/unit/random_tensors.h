@@ -148,6 +148,12 @@ static inline double largest_entry(size_t count, const double *values)
     return largest;
 }
 
+/* Keeps the larger of two, and a NaN, which fmax would lose. */
+static inline void keep_larger(double *largest, double next)
+{
+    *largest = isnan(*largest) || *largest >= next ? *largest : next;
+}
+
 /* Largest difference; NaN if any entry is. */
 static inline double largest_difference(size_t count, const double *left, const double *right)
 {

@@ -146,8 +146,8 @@ static void lead_cell(const struct solver_integrator *method, size_t dim)
         expected_gradient(&motion, output.time, error, F);
         motion.gradient(&motion, output.time, 0, R);
         for (size_t a = 0; a < output.cloud->count; a++) {
-            worst = fmax(worst, largest_difference(dim * dim, output.F + a * dim * dim, F));
-            largest = fmax(largest, largest_difference(dim * dim, output.F + a * dim * dim, R));
+            keep_larger(&worst, largest_difference(dim * dim, output.F + a * dim * dim, F));
+            keep_larger(&largest, largest_difference(dim * dim, output.F + a * dim * dim, R));
         }
     }
     double sums = (double)solver_run_facts(sample.run).steps * method->stages;
@@ -178,7 +178,7 @@ static double stress_beside(const struct solver_output *output, const double *at
     for (size_t a = 0; a < output->cloud->count; a++) {
         multiply(dim, R, at_start + a * dim * dim, half);
         multiply(dim, half, back, turned);
-        worst = fmax(worst, largest_difference(dim * dim, output->sigma + a * dim * dim, turned));
+        keep_larger(&worst, largest_difference(dim * dim, output->sigma + a * dim * dim, turned));
     }
     return worst;
 }
@@ -208,7 +208,7 @@ static double stress_of_turn(const struct body *body, const char *material, cons
         advance_to(&sample, 0.25 * turn * quarter);
         output = output_of(&sample);
         turn_gradient(&motion, output.time, 0, R);
-        worst = fmax(worst, stress_beside(&output, at_start, R, dim));
+        keep_larger(&worst, stress_beside(&output, at_start, R, dim));
     }
     free(at_start);
     *theta = turn / (double)solver_run_facts(sample.run).steps;
