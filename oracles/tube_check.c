@@ -194,7 +194,7 @@ static void second(const struct self_check *check, const double X[3], double t, 
     double radial = layered_stress(at, g->body.outer / A, R / A);
     double stress[3] = {radial, radial + at->y * (A / R * (A / R) + A / r * (A / r)),
                         radial + at->y * (A / r * (A / r))};
-    double stretch[3] = {R / r, r / R, 1};
+    double stretch[3] = {R / r, r / R, 1}, strain[3] = {-moved / r, moved / R, 0};
     memset(state, 0, sizeof *state);
     for (int k = 0; k < 2; k++) {
         state->u[k] = moved * turn[3 * k];
@@ -202,11 +202,13 @@ static void second(const struct self_check *check, const double X[3], double t, 
         state->p[k] = g->rho * state->v[k];
     }
     for (int k = 0; k < 9; k++) {
+        double G = 0;
         for (int m = 0; m < 3; m++) {
             double pair = turn[3 * (k / 3) + m] * turn[3 * (k % 3) + m];
-            state->F[k] += stretch[m] * pair;
+            G += strain[m] * pair;
             state->P[k] += g->mu * stress[m] / stretch[m] * pair;
         }
+        state->F[k] = (k % 4 == 0 ? 1 : 0) + G;
     }
 }
 
