@@ -88,7 +88,7 @@ static void run_family(struct suite *suite, size_t first, size_t last)
     bool shows = isatty(STDERR_FILENO) == 1;
 #pragma omp parallel for schedule(dynamic)
     for (size_t i = first; i < last; i++) {
-        verify_mms_run(&suite->cases[i], &suite->result[i]);
+        verify_mms_run(&suite->cases[i], NULL, &suite->result[i]);
 #pragma omp critical
         {
             done++;
