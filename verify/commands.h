@@ -8,6 +8,7 @@ int verify_command_run(const struct verify_options *options);
 int verify_command_verify(const struct verify_options *options);
 int verify_command_render(const struct verify_options *options);
 int verify_command_golden(const struct verify_options *options);
+int verify_command_compare(const struct verify_options *options);
 int verify_command_bench(const struct verify_options *options);
 int verify_command_list(const struct verify_options *options);
 

@@ -26,6 +26,7 @@ enum verify_takes {
     VERIFY_TAKES_OUT = 8,
     VERIFY_TAKES_PICTURE = 16,
     VERIFY_TAKES_DIR = 32,
+    VERIFY_TAKES_TOLERANCE = 64,
 };
 
 struct verify_options {
@@ -36,6 +37,8 @@ struct verify_options {
     size_t level_count;                     /* 0: those of the scene */
     int level[SOLVER_LEVELS];
     const char *json, *out, *picture, *dir; /* NULL where not given */
+    bool has_tolerance;
+    double tolerance[2]; /* shares of pixels: in all, within the worst tile */
     bool help;
     char line[VERIFY_COMMAND_LINE]; /* the command line as typed, for the record */
 };
@@ -54,6 +57,14 @@ struct verify_command {
 /* Reads the words after the command's name. Errors (SOLVER_BAD_INPUT) name the word and suggest what was meant. */
 bool verify_options_parse(const struct verify_command *command, int count, char *const *words,
                           struct verify_options *options, struct solver_error *error);
+
+/* The options of a command, as help and manual show them; returns how many there are. */
+struct verify_option_line {
+    char words[48];   /* "-s, --set KEY=VALUE" */
+    const char *help; /* one line */
+};
+enum { VERIFY_OPTIONS = 32 }; /* no command has more */
+size_t verify_options_lines(const struct verify_command *command, struct verify_option_line line[VERIFY_OPTIONS]);
 
 /* Usage line, help and options of one command. */
 void verify_options_help(FILE *file, const struct verify_command *command);
