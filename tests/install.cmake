@@ -32,7 +32,7 @@ assay_install_test(manual LABELS unit mustfail SKIP_CODE 77
 
 # Programs in C: by pkg-config and by CMake, with the oracles alone and with all libraries.
 assay_install_test(pkg-config LABELS gate COMMAND sh ${here}/pkg_config.sh ${CMAKE_C_COMPILER}
-  ${prefix}/${CMAKE_INSTALL_LIBDIR}/pkgconfig ${here}/libraries ${share} ${installed})
+  ${prefix}/${CMAKE_INSTALL_LIBDIR}/pkgconfig ${here}/libraries ${share} ${installed}/pkg-config)
 # project(NAME FOLDER WORD...): configures, builds and tests another project that finds what is installed.
 function(project_test name folder)
   assay_install_test(${name} LABELS gate ${ARGN} COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${folder}
@@ -71,14 +71,18 @@ gate_ends(${failed} picture-not-wrong "the pictures show the same, but must not"
 gate_ends(${failed} picture-sizes "nothing could be judged: the program ended with 2")
 gate_ends(0 picture-tolerance "PASS")
 
-# What no gate can be made of is refused at once.
+# What no gate can be made of is refused at once; so is a library that there is not.
 function(gate_refused name text)
-  assay_install_test(refused-${name} LABELS mustfail COMMAND ${cli} 1 ${text} ${CMAKE_COMMAND} -G Ninja -S ${here}/gates
-    -B ${installed}/refused-${name} -DCMAKE_PREFIX_PATH=${prefix} -DREFUSED=${name})
+  assay_install_test(refused-${name} LABELS mustfail COMMAND ${cli} 1 ${text} ${CMAKE_COMMAND}
+    -DPACKAGE=${prefix}/${CMAKE_INSTALL_LIBDIR}/cmake/assay -DCASE=${name} -P ${here}/refused.cmake)
 endfunction()
 gate_refused(no-bound "needs ERROR or ORDER")
 gate_refused(one-level "an ORDER is observed between two levels")
 gate_refused(one-result "RESULT must hold @LEVEL@")
 gate_refused(no-command "needs COMMAND")
+gate_refused(nothing-follows "nothing follows ORDER")
 gate_refused(wrong-keyword "knows no ORDERS")
+gate_refused(no-image "needs IMAGE")
 gate_refused(no-component "knows no library \"oracle\"")
+gate_refused(no-language "its libraries need the language C")
+gate_refused(version "were considered but not accepted")

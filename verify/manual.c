@@ -94,8 +94,8 @@ static const struct {
      "wrong. 3: the run itself failed; the last good state is then on disk."},
     {"ENVIRONMENT",
      "OMP_WAIT_POLICY=passive leaves waiting threads asleep, which is faster where other programs run on the same\n"
-     "cores. How many threads a run uses, the scene's key threads says, and else the number of cores and of particles;\n"
-     "results are the same to the bit for any number."},
+     "cores. How many threads a run uses, the scene's key threads says, or else the number of cores and of\n"
+     "particles; results are the same to the bit for any number."},
     {"FILES",
      "All that a command writes goes to out/SCENE, or to the folder that --out names. Files are whole or absent.\n\n"
      "Installed below a prefix: share/assay/scenes, the scenes; share/assay/golden, the stored records and pictures;\n"

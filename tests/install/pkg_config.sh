@@ -3,6 +3,7 @@
 # Usage: pkg_config.sh CC PKG_CONFIG_PATH SOURCES SHARE OUT
 set -eu
 compiler=$1 sources=$3 share=$4 out=$5
+mkdir -p -- "$out"
 export PKG_CONFIG_PATH=$2
 # shellcheck disable=SC2046 # flags are words
 "$compiler" "$share/examples/pulse-c/pulse.c" $(pkg-config --cflags --libs assay-oracles) -o "$out/pulse"
