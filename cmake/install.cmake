@@ -44,6 +44,5 @@ install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/assay)
 
 # The program writes its own page, so that the two cannot drift apart.
 set(manual ${CMAKE_BINARY_DIR}/assay.1)
-add_custom_command(OUTPUT ${manual} COMMAND assay --manual > ${manual} DEPENDS assay VERBATIM)
-add_custom_target(manual ALL DEPENDS ${manual})
+add_custom_command(TARGET assay POST_BUILD COMMAND assay --manual > ${manual} BYPRODUCTS ${manual} VERBATIM)
 install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
