@@ -1,12 +1,13 @@
 # Gates for the solver of a project that has found assay.
 #
-#   assay_add_gate(NAME test ORACLE oracle LEVELS n... RESULT file COMMAND word... [PARAMS key=value...]
+#   assay_add_gate(NAME test ORACLE oracle LEVELS n... RESULT file COMMAND word... [PARAMS key=value...] [TYPICAL]
 #                  [ERROR name=bound...] [ORDER name=bound...] [MUST_FAIL gate...] [JUDGE_OPTIONS word...]
 #                  [LABELS label...] [TIMEOUT s])
 #
 # adds a test that runs COMMAND once per level and has `assay judge` compare the results with the oracle. @LEVEL@ in
 # COMMAND and in RESULT stands for the level; COMMAND may be an executable target, and holds no empty word. It runs in a
-# folder of its own, CMAKE_CURRENT_BINARY_DIR/NAME, where RESULT is looked for; report and messages end up there too.
+# folder of its own, CMAKE_CURRENT_BINARY_DIR/NAME, where RESULT is looked for; report.html and report.json end up there too.
+# PARAMS are the oracle's parameters, in SI units; TYPICAL takes its typical values for those not given.
 # ERROR: an error of the finest level is at most the bound. ORDER: the order observed between the two finest levels is
 # at least the bound. What names errors have, `assay judge --help` says. The test passes only if all gates do.
 #
@@ -68,7 +69,7 @@ macro(assay_check_arguments function)
 endmacro()
 
 function(assay_add_gate)
-  cmake_parse_arguments(PARSE_ARGV 0 A "" "NAME;ORACLE;RESULT;TIMEOUT"
+  cmake_parse_arguments(PARSE_ARGV 0 A "TYPICAL" "NAME;ORACLE;RESULT;TIMEOUT"
     "COMMAND;LEVELS;PARAMS;ERROR;ORDER;MUST_FAIL;JUDGE_OPTIONS;LABELS")
   assay_check_arguments(assay_add_gate NAME ORACLE RESULT COMMAND LEVELS)
   list(LENGTH A_LEVELS levels)
@@ -85,6 +86,9 @@ function(assay_add_gate)
   foreach(value IN LISTS A_PARAMS)
     list(APPEND options --param ${value})
   endforeach()
+  if(A_TYPICAL)
+    list(APPEND options --typical)
+  endif()
   foreach(bound IN LISTS A_ERROR)
     list(APPEND options --gate ${bound})
   endforeach()

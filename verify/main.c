@@ -1,5 +1,6 @@
 /* assay: the command line. Dispatch only; each command stands in its own file. */
 #include "verify/commands.h"
+#include "verify/help.h"
 #include "verify/manual.h"
 #include "verify/suggest.h"
 
@@ -92,6 +93,23 @@ static const struct verify_command commands[] = {
      .least = 1,
      .most = 1,
      .run = verify_command_bench},
+    {.name = "judge",
+     .operands = "FILE...",
+     .summary = "results of any solver against an oracle, with gates",
+     .help = VERIFY_JUDGE_HELP,
+     .takes = VERIFY_TAKES_ORACLE | VERIFY_TAKES_PARAM | VERIFY_TAKES_NORM | VERIFY_TAKES_GATE | VERIFY_TAKES_ORDER |
+              VERIFY_TAKES_TIME | VERIFY_TAKES_SPACING | VERIFY_TAKES_JSON | VERIFY_TAKES_OUT,
+     .least = 1,
+     .most = VERIFY_OPERANDS,
+     .run = verify_command_judge},
+    {.name = "oracle",
+     .operands = "NAME",
+     .summary = "an oracle's fields at the places of a file or a grid",
+     .help = VERIFY_ORACLE_HELP,
+     .takes = VERIFY_TAKES_PARAM | VERIFY_TAKES_PLACES | VERIFY_TAKES_TIME | VERIFY_TAKES_TABLE,
+     .least = 1,
+     .most = 1,
+     .run = verify_command_oracle},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
 

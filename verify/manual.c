@@ -30,31 +30,67 @@ static void put_line(FILE *file, const char *text, size_t length)
     (void)fputc('\n', file);
 }
 
-/* Paragraphs between empty lines are filled; lines that begin with blanks are examples, and stay as they are. */
+/* What stands between empty lines of a help text. */
+struct block {
+    const char *text;
+    size_t length;
+    size_t term; /* "LEVELS  Each file ...": of the first line's word; 0: none */
+    enum { PARAGRAPH, TERM, EXAMPLE, TABLE } kind;
+};
+
+static size_t line_length(const char *line, const struct block *block)
+{
+    size_t rest = (size_t)(block->text + block->length - line), length = strcspn(line, "\n");
+    return length < rest ? length : rest;
+}
+
+/* An example is indented by two; a term has its word first and is indented by two from the second line on; what is
+ * indented in any other way stays as it is. */
+static struct block next_block(const char *text)
+{
+    const char *end = strstr(text, "\n\n");
+    struct block block = {.text = text, .length = end != NULL ? (size_t)(end - text) : strlen(text)};
+    size_t word = strspn(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZ"), indented = 0, deeper = 0, lines = 0;
+    block.term = word > 1 && strncmp(text + word, "  ", 2) == 0 ? word : 0;
+    for (const char *line = text; line < text + block.length; line += line_length(line, &block) + 1) {
+        size_t blanks = strspn(line, " ");
+        indented += blanks > 0;
+        deeper += blanks > 2;
+        lines++;
+    }
+    block.kind = indented == 0                                            ? PARAGRAPH
+                 : text[0] == ' '                                         ? EXAMPLE
+                 : block.term > 0 && deeper == 0 && indented + 1 == lines ? TERM
+                                                                          : TABLE;
+    return block;
+}
+
+#define PART ".PP\n"
+
 static void put_text(FILE *file, const char *text)
 {
-    bool example = false, parted = false; /* parted: an empty line came before */
-    for (const char *line = text; *line != '\0';) {
-        size_t length = strcspn(line, "\n");
-        bool indented = line[0] == ' ';
-        if (example && !indented) {
-            (void)fputs(".EE\n.RE\n", file);
+    static const char *const before[] = {PART, ".TP\n.B ", PART ".RS\n.EX\n", PART ".EX\n"};
+    static const char *const after[] = {"", "", ".EE\n.RE\n", ".EE\n"};
+    for (const char *from = text; *from != '\0';) {
+        struct block block = next_block(from);
+        const char *line = block.text;
+        bool parted = strncmp(before[block.kind], PART, sizeof PART - 1) == 0;
+        (void)fputs(before[block.kind] + (from == text && parted ? sizeof PART - 1 : 0),
+                    file); /* not after a heading */
+        if (block.kind == TERM) {
+            put_line(file, line, block.term);
+            line += block.term;
         }
-        if (parted && length > 0) {
-            (void)fputs(".PP\n", file);
+        while (line < block.text + block.length) {
+            size_t length = line_length(line, &block), blanks = strspn(line, " ");
+            size_t cut = block.kind == TABLE ? 0 : block.kind == EXAMPLE && blanks > 2 ? 2 : blanks;
+            put_line(file, line + cut, length - cut);
+            line += length + 1;
         }
-        if (indented && !example) {
-            (void)fputs(".RS\n.EX\n", file);
-        }
-        size_t blanks = indented ? strspn(line, " ") : 0;
-        if (length > 0) {
-            put_line(file, line + blanks, length - blanks);
-        }
-        parted = length == 0;
-        example = indented;
-        line += length + (line[length] == '\n');
+        (void)fputs(after[block.kind], file);
+        from = block.text + block.length;
+        from += strspn(from, "\n");
     }
-    (void)fputs(example ? ".EE\n.RE\n" : "", file);
 }
 
 static void put_commands(FILE *file, const struct verify_command *command, size_t count)
@@ -68,7 +104,8 @@ static void put_commands(FILE *file, const struct verify_command *command, size_
         size_t options = verify_options_lines(&command[i], option);
         for (size_t k = 0; k < options; k++) {
             (void)fputs(".TP\n.B ", file);
-            put_line(file, option[k].words, strlen(option[k].words));
+            const char *words = option[k].words + strspn(option[k].words, " ");
+            put_line(file, words, strlen(words));
             put_line(file, option[k].help, strlen(option[k].help));
         }
     }
@@ -105,8 +142,8 @@ static const struct {
      "With CMake, gates for a solver of one's own are a few lines; share/assay/examples holds whole projects:"
      "\n\n"
      "  find_package(assay REQUIRED)\n"
-     "  assay_add_gate(NAME bar ORACLE bimaterial-wave COMMAND my-solver @LEVEL@ LEVELS 100 200 400\n"
-     "                 RESULT out-@LEVEL@.csv ERROR P=1e-2 ORDER u=1.6)\n"
+     "  assay_add_gate(NAME bar ORACLE bimaterial-wave TYPICAL COMMAND my-solver @LEVEL@ LEVELS 100 200 400\n"
+     "                 RESULT out-@LEVEL@.csv ERROR P=1e-2 ORDER u=1.8)\n"
      "  assay_add_image_gate(NAME stress COMMAND my-plot IMAGE stress.png REFERENCE stress.png)\n\n"
      "find_package(assay COMPONENTS oracles solver render golden) gives those libraries as assay::oracles and so on.\n"
      "For other build systems, pkg-config knows assay-oracles, and assay for all of them. Programs include their "

@@ -55,12 +55,22 @@ static void paragraphs_and_examples(void)
     holds("One:\n\n  a", "\nOne:\n.PP\n.RS\n.EX\na\n.EE\n.RE\n.TP\n");
 }
 
+/* A term has its word first; what is indented in any other way stays as it is. */
+static void terms_and_tables(void)
+{
+    holds("One.\n\nFIELDS  u and\n  -v\n\nTwo.", "\nOne.\n.TP\n.B FIELDS\nu and\n\\-v\n.PP\nTwo.\n.TP\n");
+    holds("One.\n\nHDF5  /\n        a\n  b", "\nOne.\n.PP\n.EX\nHDF5  /\n        a\n  b\n.EE\n.TP\n");
+    holds("One:\n\n  a\n      b", ".EX\na\n    b\n.EE\n");
+    holds("  a", ".SS assay weigh GOLD\n.RS\n.EX\na\n.EE\n.RE\n"); /* no paragraph begins after a heading */
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
         {"commands and their options", commands_and_their_options},
         {"characters that roff knows", characters_that_roff_knows},
         {"paragraphs and examples", paragraphs_and_examples},
+        {"terms and tables", terms_and_tables},
     };
     return unit_main("manual", tests, sizeof tests / sizeof *tests);
 }
