@@ -53,7 +53,7 @@ struct verify_options {
     int level[SOLVER_LEVELS];
     const char *json, *out, *picture, *dir; /* NULL where not given */
     bool has_tolerance;
-    double tolerance[2]; /* shares of pixels: in all, within the worst tile */
+    double tolerance[2];                                           /* shares of pixels: in all, within the worst tile */
     const char *oracle, *times, *spacings, *points, *grid, *table; /* NULL where not given */
     struct verify_list param, norm, gate, order;
     bool typical; /* the oracle's typical values in place of what is not given */
