@@ -108,6 +108,9 @@ static void within_a_tolerance(void)
     CU_ASSERT_FALSE(render_within(&(struct render_difference){.fraction = 0.26, .worst_tile = 0.5}, limit));
     CU_ASSERT_FALSE(render_within(&(struct render_difference){.fraction = 0.25, .worst_tile = 0.51}, limit));
     CU_ASSERT_FALSE(render_within(&(struct render_difference){.fraction = NAN, .worst_tile = 0}, limit));
+    /* What assay compare --help says. */
+    CU_ASSERT_EQUAL(render_tolerance_default.fraction, 0.0005);
+    CU_ASSERT_EQUAL(render_tolerance_default.worst_tile, 0.02);
 }
 
 static void the_difference_is_shown(void)
