@@ -155,7 +155,9 @@ struct self_check_spot self_check_sample(const struct self_check *check, size_t 
         spot.X[axis] = within(spot.body.lower[axis], spot.body.upper[axis], steps * step_along(check, &spot.body, axis),
                               self_check_sequence(i, axis));
     }
-    spot.t = within(0, check->t_end, steps * step_along(check, &spot.body, 3), self_check_sequence(i, 3));
+    double pieces = (double)(check->pieces > 0 ? check->pieces : 1), part = pieces * self_check_sequence(i, 3);
+    double piece = floor(part), length = check->t_end / pieces;
+    spot.t = within(piece * length, (piece + 1) * length, steps * step_along(check, &spot.body, 3), part - piece);
     return spot;
 }
 
