@@ -73,6 +73,10 @@ struct oracle_kind {
     const struct oracle_extra *extra;         /* ends with a NULL name; NULL: none */
     /* Values in the order of `parameter`, already within their intervals. */
     bool (*create)(const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
+    /* In place of `create`, for kinds that share one; `about` is theirs. */
+    bool (*create_as)(const struct oracle_kind *kind, const double *value, struct oracle **oracle,
+                      char why[ORACLE_WHY]);
+    const void *about;
     void (*destroy)(struct oracle *oracle);
     /* The last time [s] that it reaches: later it says NaN. NULL: there is none. */
     double (*reach)(const struct oracle *oracle);
