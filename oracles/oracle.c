@@ -10,6 +10,7 @@
     ENTRY(oracle_cable)                                                                                                \
     ENTRY(oracle_cantilever)                                                                                           \
     ENTRY(oracle_cantilever_plane_stress)                                                                              \
+    ENTRY(oracle_plastic_wave)                                                                                         \
     ENTRY(oracle_rod_impact)                                                                                           \
     ENTRY(oracle_swinging_cube)                                                                                        \
     ENTRY(oracle_thin_plate)

@@ -137,7 +137,8 @@ static struct self_check_spot sample_between_fronts(const struct self_check *che
         spot.t = isnan(t) ? self_check_time(check, n) : t;
         double room = clearance(check, &spot);
         if (isnan(t)) {
-            room = fmin(room, self_check_speed(&spot.body) * spot.t);
+            double reach = check->kind->reach != NULL ? check->kind->reach(check->oracle) : INFINITY;
+            room = fmin(room, self_check_speed(&spot.body) * fmin(spot.t, reach - spot.t));
         }
         spot.step = fmin(1, room / ((SELF_CHECK_REACH + 1) * step_along(check, &spot.body, 0)));
         best = spot.step > best.step ? spot : best;
