@@ -11,6 +11,8 @@
     ENTRY(oracle_cantilever)                                                                                           \
     ENTRY(oracle_cantilever_plane_stress)                                                                              \
     ENTRY(oracle_plastic_wave)                                                                                         \
+    ENTRY(oracle_plate_impact_mie_grueneisen)                                                                          \
+    ENTRY(oracle_plate_impact_stiffened)                                                                               \
     ENTRY(oracle_rod_impact)                                                                                           \
     ENTRY(oracle_swinging_cube)                                                                                        \
     ENTRY(oracle_thin_plate)
