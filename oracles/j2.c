@@ -6,8 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { NUMBERS = sizeof(struct j2_state) / sizeof(double) };
+enum { NUMBERS = sizeof(struct j2_state) / sizeof(double), STRESSES = 10 }; /* the first of them are stresses */
 static const double TOLERANCE = 1e-13;
+
+const struct oracle_extra j2_extra[] = {
+    {"plastic_strain", "-", "accumulated equivalent plastic strain"},
+    {"yield_stress", "Pa", "equivalent stress at which the material now yields"},
+    {0},
+};
 
 static void deviator(const double a[9], double dev[9])
 {
@@ -33,17 +39,33 @@ double j2_equivalent(const double stress[9])
     return sqrt(1.5 * contract(dev, dev));
 }
 
-double j2_return(const struct j2 *material, const double strain[9], double stress[9])
+void j2_stress(const struct j2_state *state, double stress[9])
 {
-    double dev[9], mean = material->bulk * (strain[0] + strain[4] + strain[8]);
-    deviator(strain, dev);
-    double trial = 2 * material->mu * sqrt(1.5 * contract(dev, dev)), excess = trial - material->yield;
-    double plastic = excess > 0 ? excess / (3 * material->mu + material->hardening) : 0;
-    double kept = excess > 0 ? 1 - 3 * material->mu * plastic / trial : 1;
     for (int i = 0; i < 9; i++) {
-        stress[i] = 2 * material->mu * kept * dev[i] + (i % 4 == 0 ? mean : 0);
+        stress[i] = state->deviator[i] + (i % 4 == 0 ? state->mean : 0);
     }
-    return plastic;
+}
+
+double j2_return(const struct j2 *material, const double strain[9], struct j2_state *state)
+{
+    double step[9], dev[9];
+    for (int i = 0; i < 9; i++) {
+        step[i] = strain[i] - state->strain[i];
+        state->strain[i] = strain[i];
+    }
+    deviator(step, dev);
+    for (int i = 0; i < 9; i++) {
+        state->deviator[i] += 2 * material->mu * dev[i];
+    }
+    state->mean = material->bulk * (strain[0] + strain[4] + strain[8]);
+    double q = sqrt(1.5 * contract(state->deviator, state->deviator));
+    double excess = q - material->yield - material->hardening * state->plastic;
+    double flow = excess > 0 ? excess / (3 * material->mu + material->hardening) : 0;
+    for (int i = 0; flow > 0 && i < 9; i++) {
+        state->deviator[i] *= 1 - 3 * material->mu * flow / q;
+    }
+    state->plastic += flow;
+    return flow;
 }
 
 /* Plastic flow keeps the stress on the yield surface: with q the equivalent stress, s its deviator and D the rate of
@@ -51,17 +73,17 @@ double j2_return(const struct j2 *material, const double strain[9], double stres
 void j2_rates(const struct j2 *material, const struct j2_state *at, bool plastic, const double rate[9],
               struct j2_state *derivative)
 {
-    double s[9], D[9], q = j2_equivalent(at->stress), flow = 0, mean = material->bulk * (rate[0] + rate[4] + rate[8]);
-    deviator(at->stress, s);
+    const double *s = at->deviator;
+    double D[9], q = sqrt(1.5 * contract(s, s)), flow = 0;
     deviator(rate, D);
     if (plastic) {
         flow = 3 * material->mu * contract(s, D) / q / (3 * material->mu + material->hardening);
     }
     for (int i = 0; i < 9; i++) {
-        double along = plastic ? 1.5 * flow * s[i] / q : 0;
-        derivative->stress[i] = 2 * material->mu * (D[i] - along) + (i % 4 == 0 ? mean : 0);
+        derivative->deviator[i] = 2 * material->mu * (D[i] - (plastic ? 1.5 * flow * s[i] / q : 0));
         derivative->strain[i] = rate[i];
     }
+    derivative->mean = material->bulk * (rate[0] + rate[4] + rate[8]);
     derivative->plastic = flow;
 }
 
@@ -80,7 +102,7 @@ static void to_numbers(const struct leg *leg, const struct j2_state *state, doub
 {
     memcpy(y, state, sizeof *state);
     for (int i = 0; i < NUMBERS; i++) {
-        y[i] /= leg->size * (i < 9 ? leg->material->mu : 1);
+        y[i] /= leg->size * (i < STRESSES ? leg->material->mu : 1);
     }
 }
 
@@ -88,7 +110,7 @@ static void from_numbers(const struct leg *leg, const double y[NUMBERS], struct 
 {
     double scaled[NUMBERS];
     for (int i = 0; i < NUMBERS; i++) {
-        scaled[i] = y[i] * leg->size * (i < 9 ? leg->material->mu : 1);
+        scaled[i] = y[i] * leg->size * (i < STRESSES ? leg->material->mu : 1);
     }
     memcpy(state, scaled, sizeof *state);
 }
@@ -127,7 +149,7 @@ static bool follow_leg(struct leg *leg, double to, struct j2_state *end)
 
 static double excess(const struct j2 *material, const struct j2_state *at)
 {
-    return j2_equivalent(at->stress) - (material->yield + material->hardening * at->plastic);
+    return sqrt(1.5 * contract(at->deviator, at->deviator)) - (material->yield + material->hardening * at->plastic);
 }
 
 static double excess_at(double s, void *with)
@@ -154,10 +176,9 @@ static bool meet_yield(struct leg *leg, double to, double *yielded)
 /* Whether the leg leaves the yield surface outwards at once: on it, but for round-off, and pushed on. */
 static bool starts_plastic(const struct leg *leg)
 {
-    double rate[9], s[9], bound = 1e-12 * (leg->material->yield + leg->material->hardening * leg->start.plastic);
+    double rate[9], bound = 1e-12 * (leg->material->yield + leg->material->hardening * leg->start.plastic);
     leg->path(leg->material, leg->with, leg->from, &leg->start, false, rate);
-    deviator(leg->start.stress, s);
-    return excess(leg->material, &leg->start) >= -bound && contract(s, rate) > 0;
+    return excess(leg->material, &leg->start) >= -bound && contract(leg->start.deviator, rate) > 0;
 }
 
 bool j2_follow(const struct j2 *material, j2_path *path, const void *with, double from, double to,
@@ -167,7 +188,7 @@ bool j2_follow(const struct j2 *material, j2_path *path, const void *with, doubl
     struct leg leg = {.material = material, .path = path, .with = with, .from = from, .start = *state};
     path(material, with, from, state, false, rate);
     leg.size =
-        sqrt(contract(rate, rate)) * fabs(to - from) + sqrt(contract(state->stress, state->stress)) / material->mu;
+        sqrt(contract(rate, rate)) * fabs(to - from) + sqrt(contract(state->deviator, state->deviator)) / material->mu;
     *yielded = to;
     if (leg.size == 0 || to == from) {
         return true;

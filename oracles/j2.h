@@ -10,17 +10,25 @@ struct j2 {
     double yield, hardening; /* yield stress at first, and its rise per plastic strain [Pa] */
 };
 
+/* The extra scalars of every kind of J2 plasticity. */
+enum { J2_PLASTIC_STRAIN, J2_YIELD_STRESS };
+extern const struct oracle_extra j2_extra[];
+
 /* sqrt(3/2 dev(stress):dev(stress)), row by row. */
 double j2_equivalent(const double stress[9]);
 
-/* From a virgin state to a small strain, in one step of radial return: which is exact where the direction of the
- * deviator does not change on the way. Sets the stress [Pa] and returns the plastic strain. */
-double j2_return(const struct j2 *material, const double strain[9], double stress[9]);
-
 struct j2_state {
-    double stress[9], strain[9]; /* [Pa], [-] */
-    double plastic;              /* accumulated plastic strain [-] */
+    double deviator[9], mean; /* of the stress [Pa], apart: near incompressibility the mean is so much larger */
+    double strain[9];         /* [-] */
+    double plastic;           /* accumulated plastic strain [-] */
 };
+
+/* The whole stress, row by row [Pa]. */
+void j2_stress(const struct j2_state *state, double stress[9]);
+
+/* From a state to another strain by one step of radial return, which is exact where the deviator moves along a straight
+ * line through zero. Returns what the plastic strain has grown by. */
+double j2_return(const struct j2 *material, const double strain[9], struct j2_state *state);
 
 /* Derivatives at a state whose strain changes at `rate`, elastically or along the yield surface. */
 void j2_rates(const struct j2 *material, const struct j2_state *at, bool plastic, const double rate[9],

@@ -33,6 +33,15 @@ bool oracle_out_of_range(const struct oracle_parameter *parameter, const double 
     return false;
 }
 
+void oracle_silence(struct oracle_state *state)
+{
+    double nothing[sizeof *state / sizeof(double)];
+    for (size_t i = 0; i < sizeof nothing / sizeof *nothing; i++) {
+        nothing[i] = NAN;
+    }
+    memcpy(state, nothing, sizeof *state);
+}
+
 bool oracle_no_memory(size_t size, char why[ORACLE_WHY])
 {
     (void)snprintf(why, ORACLE_WHY, "no memory for %zu bytes", size);

@@ -13,6 +13,7 @@
  * a slower one has the first alone. Behind the second the plastic strain is 2 mu (v0 - vh)/cp/(3 mu + H). It reaches
  * until the first wave is at the other face, X = L. */
 #include "oracles/plastic_wave.h"
+#include "oracles/j2.h"
 #include "oracles/kind.h"
 
 #include <math.h>
@@ -48,12 +49,6 @@ static const struct oracle_parameter parameters[] = {
     {0},
 };
 
-static const struct oracle_extra extra[] = {
-    {"plastic_strain", "-", "accumulated equivalent plastic strain"},
-    {"yield_stress", "Pa", "equivalent stress at which the material now yields"},
-    {0},
-};
-
 static double reach(const struct oracle *o)
 {
     return o->given.L / o->speed[0];
@@ -83,11 +78,13 @@ static double displacement(const struct oracle *o, double X, double t)
 
 static void state(const struct oracle *o, const double X[3], double t, struct oracle_state *at)
 {
-    static const struct zone unknown = {NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     const struct zone *zone = zone_at(o, X[0], t);
+    if (zone == NULL) {
+        oracle_silence(at);
+        return;
+    }
     memset(at, 0, sizeof *at);
-    at->u[0] = zone != NULL ? displacement(o, X[0], t) : NAN;
-    zone = zone != NULL ? zone : &unknown;
+    at->u[0] = displacement(o, X[0], t);
     at->v[0] = zone->v;
     at->p[0] = o->given.rho * zone->v;
     at->F[0] = 1 + zone->strain;
@@ -99,8 +96,8 @@ static void state(const struct oracle *o, const double X[3], double t, struct or
 static void extras(const struct oracle *o, const double X[3], double t, double value[ORACLE_EXTRAS])
 {
     const struct zone *zone = zone_at(o, X[0], t);
-    value[0] = zone != NULL ? zone->plastic : NAN;
-    value[1] = zone != NULL ? zone->yield_stress : NAN;
+    value[J2_PLASTIC_STRAIN] = zone != NULL ? zone->plastic : NAN;
+    value[J2_YIELD_STRESS] = zone != NULL ? zone->yield_stress : NAN;
 }
 
 static double outside(const struct oracle *o, const double X[3])
@@ -226,7 +223,7 @@ const struct oracle_kind oracle_plastic_wave = {
     .smoothness = ORACLE_JUMPS,
     .awaits = "plasticity",
     .parameter = parameters,
-    .extra = extra,
+    .extra = j2_extra,
     .create = create,
     .destroy = oracle_release,
     .reach = reach,

@@ -1,7 +1,8 @@
 /* What the plastic wave must satisfy beside the equations of motion: the return map, the yield surface, the Hugoniot
  * elastic limit, times of arrival, and energies with plastic work. The second evaluation knows no bilinear curve: it
  * integrates the rate equations through a simple wave, d(strain)/dv = -1/c with c by the current tangent modulus. */
-#include "oracles/j2.h"
+#include "oracles/j2_check.h"
+#include "oracles/kind.h"
 #include "oracles/plastic_wave.h"
 #include "oracles/self_check_parts.h"
 
@@ -22,6 +23,7 @@ struct plastic {
     size_t waves;              /* by the rate equations */
     struct j2_state behind[2]; /* each wave, by the rate equations */
     double v[2], speed[2];     /* [m/s] */
+    bool followed;             /* to the end */
 };
 
 static const struct plastic *whole(const struct self_check *check)
@@ -33,43 +35,25 @@ static double plastic_strain(const struct self_check *check, const double X[3], 
 {
     double value[ORACLE_EXTRAS];
     check->kind->extras(check->oracle, X, t, value);
-    return value[0];
+    return value[J2_PLASTIC_STRAIN];
+}
+
+static bool at_once(const struct self_check *check, double t, const double G[9], struct j2_state *state)
+{
+    (void)t;
+    *state = (struct j2_state){.plastic = 0};
+    return j2_return(&whole(check)->material, G, state) > 0;
 }
 
 static void return_map(const struct self_check *check, const double X[3], double t, const double G[9], double P[9])
 {
-    (void)X, (void)t;
-    (void)j2_return(&whole(check)->material, G, P);
+    struct j2_state state;
+    (void)X;
+    (void)at_once(check, t, G, &state);
+    j2_stress(&state, P);
 }
 
 static const struct self_check_material LAW = {.law = "P = J2 return map(du/dX)", .stress = return_map};
-
-/* Extra scalars by the return map of the differences of u, and the stress on or within the yield surface they tell of.
- */
-static void check_plasticity(struct self_check *check)
-{
-    const struct j2 *material = &whole(check)->material;
-    double plastic = 0, yield = 0, surface = 0, size = 0;
-    for (size_t i = 0; i < PLACES; i++) {
-        struct self_check_spot spot = self_check_sample(check, i, SELF_CHECK_REACH);
-        struct oracle_state state, along;
-        double value[ORACLE_EXTRAS], G[9] = {0}, stress[9];
-        check->kind->state(check->oracle, spot.X, spot.t, &state);
-        check->kind->extras(check->oracle, spot.X, spot.t, value);
-        self_check_derivative(check, &spot, 0, &along);
-        G[0] = along.u[0];
-        double mapped = j2_return(material, G, stress), q = j2_equivalent(state.P);
-        double limit = material->yield + material->hardening * mapped, rise = material->hardening * fabs(G[0]);
-        size = self_check_worse(size, fabs(G[0]));
-        plastic = self_check_worse(plastic, spot.step * fabs(value[0] - mapped));
-        yield = self_check_worse(yield, spot.step * fabs(value[1] - limit) / (limit + rise));
-        surface = self_check_worse(surface, (mapped > 0 ? fabs(q - value[1]) : fmax(0, q - value[1])) / limit);
-    }
-    double bound = 16 * self_check_round_off(check) / SELF_CHECK_STEP;
-    self_check_line(check, "plastic strain = return map", self_check_relative(plastic, size), bound);
-    self_check_line(check, "yield stress = hardening law", yield, bound);
-    self_check_line(check, "equivalent stress on or within the yield surface", surface, BOUND);
-}
 
 static void check_faces(struct self_check *check)
 {
@@ -108,11 +92,6 @@ static void check_waves(struct self_check *check)
     self_check_line(check, "stress behind the elastic wave", fabs(state.P[0] + due) / due, 64 * DBL_EPSILON);
 }
 
-static double work(const struct plastic *of, double plastic)
-{
-    return (of->material.yield + of->material.hardening * plastic / 2) * plastic;
-}
-
 struct moment {
     const struct plastic *of;
     double t;
@@ -123,11 +102,11 @@ static void plastic_work(const struct self_check_body *body, const struct oracle
 {
     const struct moment *at = with;
     (void)body, (void)state;
-    sum[0] += weight * work(at->of, plastic_strain(&at->of->laws, X, at->t));
+    sum[0] += weight * j2_plastic_work(&at->of->material, plastic_strain(&at->of->laws, X, at->t));
 }
 
-/* What the face has done, less the plastic work in all of the plate. */
-static double supplied(const struct self_check *check, double t)
+/* What the face has done, and the plastic work in all of the plate. */
+static void supplied(const struct self_check *check, double t, double *fed, double *lost)
 {
     struct self_check_body body = self_check_body(check, 0);
     const struct moment at = {whole(check), t};
@@ -140,7 +119,8 @@ static double supplied(const struct self_check *check, double t)
         done -= t > 0 ? weight * t / 2 * state.P[0] * state.v[0] : 0;
     }
     self_check_integrate(check, &body, t, INFINITY, plastic_work, &at, sum);
-    return done - sum[0];
+    *fed = done;
+    *lost = sum[0];
 }
 
 static double tangent_speed(const struct j2 *material, const struct j2_state *at, bool plastic, double rho)
@@ -148,7 +128,7 @@ static double tangent_speed(const struct j2 *material, const struct j2_state *at
     static const double stretch[9] = {1};
     struct j2_state derivative;
     j2_rates(material, at, plastic, stretch, &derivative);
-    return sqrt(derivative.stress[0] / rho);
+    return sqrt((derivative.deviator[0] + derivative.mean) / rho);
 }
 
 /* Along the simple wave, by the velocity. */
@@ -184,11 +164,15 @@ static void by_rates(const struct self_check *check, const double X[3], double t
 {
     const struct plastic *of = whole(check);
     double ahead = 0, v_ahead = 0;
+    if (!of->followed) {
+        oracle_silence(state);
+        return;
+    }
     memset(state, 0, sizeof *state);
     for (size_t i = 0; i < of->waves; i++) {
         double inside = fmax(0, of->speed[i] * t - X[0]);
         if (inside > 0) {
-            memcpy(state->P, of->behind[i].stress, sizeof state->P);
+            j2_stress(&of->behind[i], state->P);
             memcpy(state->F, of->behind[i].strain, sizeof state->F);
             v_ahead = of->v[i];
         }
@@ -238,13 +222,10 @@ size_t plastic_wave_check(const struct oracle_kind *kind, const struct oracle *o
     check_faces(&of.laws);
     self_check_fronts(&of.laws);
     check_waves(&of.laws);
-    check_plasticity(&of.laws);
+    j2_check(&of.laws, &of.material, at_once);
     self_check_energies(&of.laws);
     self_check_reach(&of.laws, "says nothing once X1 is reached", T);
-    if (!follow_waves(&of)) {
-        of.v[0] = of.v[1] = NAN;
-        of.waves = 2;
-    }
+    of.followed = follow_waves(&of);
     self_check_compare(&of.laws, by_rates, BOUND);
     return of.laws.count;
 }

@@ -59,13 +59,17 @@ static bool shocked(const struct oracle *o, double X, double t)
 static void state(const struct oracle *o, const double X[3], double t, struct oracle_state *at)
 {
     double v0 = (X[0] < o->given.L ? 1 : -1) * o->given.v0, way = fabs(X[0] - o->given.L);
-    bool behind = shocked(o, X[0], t), silent = !(t <= reach(o));
-    double p = silent ? NAN : (behind ? o->p : 0), v = silent ? NAN : (behind ? 0 : v0);
+    bool behind = shocked(o, X[0], t);
+    double p = behind ? o->p : 0;
+    if (!(t <= reach(o))) {
+        oracle_silence(at);
+        return;
+    }
     memset(at, 0, sizeof *at);
-    at->u[0] = silent ? NAN : v0 * (behind ? way / o->U : t);
-    at->v[0] = v;
-    at->p[0] = o->given.rho * v;
-    at->F[0] = silent ? NAN : 1 - (behind ? o->eta : 0);
+    at->u[0] = v0 * (behind ? way / o->U : t);
+    at->v[0] = behind ? 0 : v0;
+    at->p[0] = o->given.rho * at->v[0];
+    at->F[0] = 1 - (behind ? o->eta : 0);
     at->F[4] = at->F[8] = 1;
     at->P[0] = -p;
     at->P[4] = at->P[8] = -p * at->F[0];

@@ -11,7 +11,7 @@
 
 static void place(const double X[3], double t, double d, struct oracle_state *s)
 {
-    const double nearer[3] = {X[0] * (1 - d), X[1], X[2]}; /* still in the body */
+    const double nearer[3] = {X[0] * (1 - d), X[1] * (1 - d), X[2] * (1 - d)}; /* still in the body */
     true_state(nearer, t, s);
 }
 
