@@ -2,6 +2,9 @@
 
 #include <string.h>
 
+/* Logarithm of the stretch of the motion "stretch" at amplitude 1, without its ripple. */
+static const double STRETCH = 0.55;
+
 /* k X + phase, with half a wave over the length L */
 static struct jet half_waves(const struct oracle_motion_shape *shape, struct jet X, double count, double phase)
 {
@@ -16,8 +19,8 @@ static struct jet swing(const struct oracle_motion_shape *shape, struct jet t, d
 
 /* u_i = A L sin(pi X_i / L + phase_i) prod_{j != i} cos(pi X_j / L + phase_j) sin(2 pi t / T + phase): no symmetry to
  * hide behind, nothing vanishes on a face, and no component is another one's image. */
-static void place_waves(const struct oracle_motion_shape *shape, int dim, const struct jet X[3], struct jet t,
-                        struct jet x[3])
+static void displace_waves(const struct oracle_motion_shape *shape, int dim, const struct jet X[3], struct jet t,
+                           struct jet u[3])
 {
     static const double phase[3] = {0.3, 0.7, 1.1};
     static const double size[3] = {1.0, 0.8, 0.6};
@@ -27,54 +30,65 @@ static void place_waves(const struct oracle_motion_shape *shape, int dim, const 
             struct jet angle = half_waves(shape, X[j], 1.0, phase[j]);
             wave = jet_multiply(wave, i == j ? jet_sin(angle) : jet_cos(angle));
         }
-        x[i] = jet_combine(1.0, X[i], size[i] * shape->amplitude * shape->L, wave);
+        u[i] = jet_scale(size[i] * shape->amplitude * shape->L, wave, 0.0);
     }
 }
 
-/* Along the last axis z the body is stretched by 2^(A s(t)) and back, more at one place than at another; across it, it
- * narrows by the root of that and turns about the axis through (L/2, L/2) by an angle that grows with Z (3D), or is
- * sheared and turned as a whole (2D). */
-static void place_stretch(const struct oracle_motion_shape *shape, int dim, const struct jet X[3], struct jet t,
-                          struct jet x[3])
+/* Turns (x, y) by an angle. */
+static void turn(struct jet angle, struct jet *x, struct jet *y)
+{
+    struct jet c = jet_cos(angle);
+    struct jet s = jet_sin(angle);
+    struct jet across = *x;
+    *x = jet_combine(1.0, jet_multiply(c, across), -1.0, jet_multiply(s, *y));
+    *y = jet_add(jet_multiply(s, across), jet_multiply(c, *y));
+}
+
+/* Along the last axis the body is stretched to and fro, more at one place than at another; across it, it narrows by the
+ * root of that, and it turns about the axis through (L/2, L/2), by an angle that grows along it in 3D and while it
+ * bends in 2D. */
+static void displace_stretch(const struct oracle_motion_shape *shape, int dim, const struct jet X[3], struct jet t,
+                             struct jet u[3])
 {
     int axis = dim - 1;
     double L = shape->L;
+    struct jet x[3] = {X[0], X[1], X[2]};
     struct jet s = swing(shape, t, 0.0);
-    struct jet stretch = jet_exp(jet_scale(0.8 * log(2.0) * shape->amplitude, s, 0.0));
+    struct jet angle = jet_scale(0.5 * shape->amplitude, swing(shape, t, 0.6), 0.0);
+    struct jet stretch = jet_exp(jet_scale(STRETCH * shape->amplitude, s, 0.0));
+    struct jet narrow = jet_exp(jet_scale(-0.5 * STRETCH * shape->amplitude, s, 0.0));
     struct jet ripple = jet_multiply(s, jet_sin(half_waves(shape, X[axis], 1.0, 0.3)));
     x[axis] = jet_multiply(stretch, jet_combine(1.0, X[axis], 0.05 * shape->amplitude * L, ripple));
-    if (dim == 1) {
-        return;
+    for (int i = 0; i < axis; i++) {
+        x[i] = jet_multiply(narrow, jet_scale(1.0, X[i], -0.5 * L));
     }
-    struct jet narrow = jet_exp(jet_scale(-0.4 * log(2.0) * shape->amplitude, s, 0.0));
-    struct jet across = jet_multiply(narrow, jet_scale(1.0, X[0], -0.5 * L));
-    struct jet turn = jet_scale(0.5 * shape->amplitude, swing(shape, t, 0.6), 0.0);
     if (dim == 2) {
-        struct jet bend = jet_multiply(turn, jet_sin(half_waves(shape, X[1], 1.0, 0.2)));
-        struct jet y = x[1];
-        across = jet_combine(1.0, across, 0.3 * L, bend);
-        x[0] = jet_combine(1.0, jet_multiply(jet_cos(turn), across), -1.0, jet_multiply(jet_sin(turn), y));
-        x[1] = jet_add(jet_multiply(jet_sin(turn), across), jet_multiply(jet_cos(turn), y));
-        return;
+        struct jet bend = jet_multiply(angle, jet_sin(half_waves(shape, X[1], 1.0, 0.2)));
+        x[0] = jet_combine(1.0, x[0], 0.2 * L, bend);
+    } else if (dim == 3) {
+        angle = jet_multiply(angle, jet_scale(1.0 / L, X[2], 0.5));
     }
-    struct jet other = jet_multiply(narrow, jet_scale(1.0, X[1], -0.5 * L));
-    struct jet angle = jet_multiply(turn, jet_scale(1.0 / L, X[2], 0.5));
-    x[0] = jet_combine(1.0, jet_multiply(jet_cos(angle), across), -1.0, jet_multiply(jet_sin(angle), other));
-    x[1] = jet_add(jet_multiply(jet_sin(angle), across), jet_multiply(jet_cos(angle), other));
+    if (dim > 1) {
+        turn(angle, &x[0], &x[1]);
+    }
+    for (int i = 0; i < dim; i++) {
+        u[i] = jet_combine(1.0, x[i], -1.0, X[i]);
+    }
 }
 
-/* Shears one after another, each by a function of the others' places now: every one keeps volumes, so all do. */
-static void place_isochoric(const struct oracle_motion_shape *shape, int dim, const struct jet X[3], struct jet t,
-                            struct jet x[3])
+/* Shears one after another, each by a function of where the others are by then: each keeps volumes, so all do. */
+static void displace_isochoric(const struct oracle_motion_shape *shape, int dim, const struct jet X[3], struct jet t,
+                               struct jet u[3])
 {
-    double size = shape->amplitude * shape->L;
+    for (int i = 0; i < dim; i++) {
+        u[i] = jet_constant(0.0);
+    }
     for (int i = 0; i < dim; i++) {
         int next = (i + 1) % dim;
-        struct jet angle = half_waves(shape, x[next], 1.0, 0.3 + 0.4 * i);
+        struct jet angle = half_waves(shape, jet_add(X[next], u[next]), 1.0, 0.3 + 0.4 * i);
         struct jet shear = jet_multiply(swing(shape, t, 0.3 + 0.5 * i), jet_sin(angle));
-        x[i] = jet_combine(1.0, x[i], size * (1.0 - 0.2 * i), shear);
+        u[i] = jet_scale(shape->amplitude * shape->L * (1.0 - 0.2 * i), shear, 0.0);
     }
-    (void)X;
 }
 
 static const struct oracle_motion motions[] = {
@@ -84,22 +98,22 @@ static const struct oracle_motion motions[] = {
      .most = 0.1,
      .typical = 1e-6,
      .least_dim = 1,
-     .place = place_waves},
+     .displace = displace_waves},
     {.name = "stretch",
      .summary = "stretched to and fro along one axis, twisted about it",
      .amplitude = "1: stretches from 0.5 to 2",
      .most = 1.1,
      .typical = 1.0,
      .least_dim = 1,
-     .place = place_stretch},
+     .displace = displace_stretch},
     {.name = "isochoric",
      .summary = "shears that keep every volume",
      .amplitude = "displacement over L",
-     .most = 0.5,
+     .most = 0.3,
      .typical = 0.1,
      .least_dim = 2,
      .isochoric = true,
-     .place = place_isochoric},
+     .displace = displace_isochoric},
     {.name = NULL},
 };
 
@@ -112,22 +126,21 @@ void oracle_motion_at(const struct oracle_motion *motion, const struct oracle_mo
                       const double X[3], double t, struct oracle_kinematics *at)
 {
     enum { TIME = 3 };
-    struct jet place[3], x[3];
+    struct jet place[3], u[3];
     memset(at, 0, sizeof *at);
     for (int i = 0; i < 3; i++) {
         place[i] = i < dim ? jet_variable(X[i], i) : jet_constant(X[i]);
-        x[i] = place[i];
         at->F[4 * i] = 1.0;
     }
-    motion->place(shape, dim, place, jet_variable(t, TIME), x);
-    for (int i = 0; i < 3; i++) {
-        at->x[i] = x[i].value;
-        at->v[i] = x[i].first[TIME];
-        at->a[i] = jet_second(x[i], TIME, TIME);
-        for (int I = 0; I < dim && i < dim; I++) {
-            at->F[3 * i + I] = x[i].first[I];
+    motion->displace(shape, dim, place, jet_variable(t, TIME), u);
+    for (int i = 0; i < dim; i++) {
+        at->u[i] = u[i].value;
+        at->v[i] = u[i].first[TIME];
+        at->a[i] = jet_second(u[i], TIME, TIME);
+        for (int I = 0; I < dim; I++) {
+            at->F[3 * i + I] += u[i].first[I];
             for (int J = 0; J < dim; J++) {
-                at->dF[i][I][J] = jet_second(x[i], I, J);
+                at->dF[i][I][J] = jet_second(u[i], I, J);
             }
         }
     }

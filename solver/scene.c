@@ -186,6 +186,7 @@ void solver_scene_free(struct solver_scene *scene)
 {
     if (!scene)
         return;
+    solver_scene_drive_from(scene, NULL, NULL, NULL);
     scene_lua_free(scene->lua);
     free(scene->text);
     free(scene->overrides);

@@ -246,6 +246,7 @@ struct solver_scene {
     void *start_context;
     solver_drive *drive; /* NULL: the formulas */
     void *drive_context;
+    void (*drive_release)(void *context);
     struct solver_scene_lua *lua; /* the interpreter that holds the formulas; private */
 };
 
@@ -267,9 +268,11 @@ bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula for
 /* Initial displacement, velocity and F come from `start` in place of formulas, while `context` lasts. A scene with
  * initial.from = "oracle" needs this before a run of it is created: the solver knows no oracles. */
 void solver_scene_start_from(struct solver_scene *scene, solver_start *start, void *context);
-/* Body force and what faces prescribe come from `drive` in place of formulas, while `context` lasts. A scene with
- * loads.from = "oracle" needs this before a run of it is created, and until the run ends. */
-void solver_scene_drive_from(struct solver_scene *scene, solver_drive *drive, void *context);
+/* Body force and what faces prescribe come from `drive` in place of formulas; NULL: from the formulas again. The
+ * context is released (release may be NULL) when it is replaced or the scene freed. A scene with loads.from = "oracle"
+ * needs this before a run of it is created. `drive` may be called by several threads at a time. */
+void solver_scene_drive_from(struct solver_scene *scene, solver_drive *drive, void *context,
+                             void (*release)(void *context));
 /* A number of the scene by its path: "material.nu", "cfl", or one of the scene's parameters ("U0").
  * False if there is none of that name. */
 bool solver_scene_number(const struct solver_scene *scene, const char *path, double *value);

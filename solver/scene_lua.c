@@ -223,10 +223,15 @@ void solver_scene_start_from(struct solver_scene *scene, solver_start *start, vo
     scene->start_context = context;
 }
 
-void solver_scene_drive_from(struct solver_scene *scene, solver_drive *drive, void *context)
+void solver_scene_drive_from(struct solver_scene *scene, solver_drive *drive, void *context,
+                             void (*release)(void *context))
 {
+    if (scene->drive_release != NULL) {
+        scene->drive_release(scene->drive_context);
+    }
     scene->drive = drive;
     scene->drive_context = context;
+    scene->drive_release = release;
 }
 
 /* What was given in place of an initial formula. */
