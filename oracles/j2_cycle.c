@@ -124,13 +124,9 @@ static void extras(const struct oracle *o, const double X[3], double t, double v
 
 static double outside(const struct oracle *o, const double X[3])
 {
-    double square = 0;
+    static const double lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
     (void)o;
-    for (int i = 0; i < 3; i++) {
-        double off = fmax(0, fmax(-X[i], X[i] - 1));
-        square += off * off;
-    }
-    return sqrt(square);
+    return oracle_outside_box(3, lower, upper, X);
 }
 
 static void energy(const struct oracle *o, double t, double *kinetic, double *strain)

@@ -12,6 +12,8 @@ bool oracle_out_of_range(const struct oracle_parameter *parameter, const double 
 
 /* The state where an oracle says nothing: all NaN. */
 void oracle_silence(struct oracle_state *state);
+/* Distance [m] of X from the box lower <= X <= upper along the first `dim` axes; NaN where X is. */
+double oracle_outside_box(int dim, const double *lower, const double *upper, const double *X);
 
 /* A copy of `size` bytes, or false with `why` filled in. */
 bool oracle_keep(const void *oracle, size_t size, struct oracle **out, char why[ORACLE_WHY]);

@@ -87,7 +87,8 @@ static void extras(const struct oracle *o, const double X[3], double t, double v
 
 static double outside(const struct oracle *o, const double X[3])
 {
-    return fmax(0, fmax(-X[0], X[0] - 2 * o->given.L));
+    const double lower = 0, upper = 2 * o->given.L;
+    return oracle_outside_box(1, &lower, &upper, X);
 }
 
 static void energy(const struct oracle *o, double t, double *kinetic, double *strain)

@@ -57,7 +57,8 @@ static void try_drive(const char *path, const char *faces, const struct verify_s
     if (!result.ran) {
         bool broke = result.error.code == SOLVER_BROKE_DOWN;
         mutation->failed = !broke || spoiled == NULL; /* a run that breaks down is noticed, by the user first */
-        (void)snprintf(mutation->caught, sizeof mutation->caught, "%s", broke ? "run broke down" : result.error.text);
+        (void)snprintf(mutation->caught, sizeof mutation->caught, "%.150s",
+                       broke ? "run broke down" : result.error.text);
         return;
     }
     for (size_t i = 0; i < DRIVE_GATES && mutation->caught[0] == '\0'; i++) {
