@@ -277,23 +277,6 @@ static void says_nothing_beyond_its_reach(void)
     }
 }
 
-/* A place far off along any axis of the body is as far from it as it lies, but for the body's own size. */
-static void knows_where_its_body_ends(void)
-{
-    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
-        struct oracle *oracle = create_typical(*k);
-        for (int axis = 0; (*k)->outside != NULL && axis < 3; axis++) {
-            for (int side = -1; side <= 1; side += 2) {
-                double X[3] = {0, 0, 0}, far = 1e6;
-                X[axis] = side * far;
-                double distance = (*k)->outside(oracle, X);
-                CU_ASSERT_TRUE(axis < (*k)->dim ? fabs(distance - far) < 1e3 : distance < 1e3);
-            }
-        }
-        (*k)->destroy(oracle);
-    }
-}
-
 static void figures_describe_themselves(void)
 {
     for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
@@ -482,7 +465,6 @@ int main(void)
         {"refuses each bad value", refuses_each_bad_value},
         {"answers repeatably with finite numbers", answers_repeatably_with_finite_numbers},
         {"says nothing beyond its reach", says_nothing_beyond_its_reach},
-        {"knows where its body ends", knows_where_its_body_ends},
         {"figures describe themselves", figures_describe_themselves},
         {"lists fronts in order and repeatably", lists_fronts_in_order_and_repeatably},
         {"passes its own check", passes_its_own_check},
