@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Which axes a face constrains, by its kind: the normal, the others, or all. */
+/* Which axes a face constrains, by its kind: the normal, the others, or all. A curved one holds all or none. */
 static unsigned constrained_axes(enum solver_face_kind kind, unsigned normal, unsigned dim)
 {
     unsigned all = (1U << dim) - 1U;
@@ -54,7 +54,7 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
         unsigned lasting = 0;
         int motion = -1;
         bool clamped = false;
-        for (unsigned face = 0; face < 2 * dim; face++) {
+        for (unsigned face = 0; face < SOLVER_FACES; face++) {
             uint32_t bits = cloud->tags[a] >> SOLVER_ON_FACE | cloud->tags[a] >> SOLVER_BEYOND_FACE;
             if ((bits >> face & 1U) == 0) {
                 continue;

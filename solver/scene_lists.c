@@ -1,4 +1,5 @@
 /* Reads the structured parts of a scene: faces, probes, oracle, published figures, gates. */
+#include "solver/cloud.h"
 #include "solver/scene_internal.h"
 
 #include <float.h>
@@ -74,7 +75,7 @@ void scene_read_faces(lua_State *L, struct solver_scene *scene)
             lua_pop(L, 1);
             continue;
         }
-        if (face / 2 >= scene->dim)
+        if (face < SOLVER_SURFACE && face / 2 >= scene->dim)
             scene_refuse(L, "%s: a body of dim = %d has no such face", key->key, scene->dim);
         bool has_value = false;
         if (lua_istable(L, given)) {
