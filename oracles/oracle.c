@@ -7,6 +7,8 @@
 /* One line per oracle: the name of its struct oracle_kind. */
 #define ORACLE_TABLE(ENTRY)                                                                                            \
     ENTRY(oracle_bimaterial_wave)                                                                                      \
+    ENTRY(oracle_breathing_cylinder)                                                                                   \
+    ENTRY(oracle_breathing_sphere)                                                                                     \
     ENTRY(oracle_cable)                                                                                                \
     ENTRY(oracle_cantilever)                                                                                           \
     ENTRY(oracle_cantilever_plane_stress)                                                                              \
