@@ -13,6 +13,8 @@
     ROW("P_all", "Pa", "first Piola-Kirchhoff stress, all components")                                                 \
     ROW("u", "m", "displacement, all components")                                                                      \
     ROW("F", "-", "deformation gradient less the identity, all components")                                            \
+    ROW("H", "-", "cofactor of F less the identity, all components")                                                   \
+    ROW("J", "-", "Jacobian less 1")                                                                                   \
     ROW("sigma", "Pa", "Cauchy stress, normal components")                                                             \
     ROW("sigma_all", "Pa", "Cauchy stress, all components")
 #define OF_PROBES(ROW)                                                                                                 \
@@ -42,7 +44,7 @@ _Static_assert(sizeof unit_table == VERIFY_ERRORS * sizeof *unit_table, "one uni
 _Static_assert(sizeof meaning_table == VERIFY_ERRORS * sizeof *meaning_table, "one meaning per error");
 
 const char verify_error_names[] =
-    "p, P, P_all, u, F, sigma, sigma_all, probes, probes_y, each also with _abs, _max, _abs_max or "
+    "p, P, P_all, u, F, H, J, sigma, sigma_all, probes, probes_y, each also with _abs, _max, _abs_max or "
     "_l1, all but those of probes also with snapshots_ before "
     "it, probes_nrmse, probes_y_nrmse, beside and beside_abs";
 
@@ -118,7 +120,7 @@ static enum verify_field field_of(size_t error)
 
 static bool is_of_deformation(enum verify_field field)
 {
-    return field == VERIFY_P || field == VERIFY_P_ALL || field == VERIFY_F;
+    return field == VERIFY_P || field == VERIFY_P_ALL || field == VERIFY_F || field == VERIFY_H;
 }
 
 bool verify_error_known(const struct solver_scene *scene, size_t error)
@@ -146,10 +148,11 @@ bool verify_error_applies(const struct solver_scene *scene, size_t error, const 
     return *lacks == NULL;
 }
 
-/* Where a field lies: a vector [dim], or a tensor with rows of the given length, of which the normal components alone
- * may count. */
+/* Where a field lies: [dim], or a tensor with rows of the given length, of which the normal components alone may
+ * count. */
 struct place {
     const double *of;
+    size_t width; /* components, of a tensor per row */
     bool tensor, normal_only;
     size_t row;
 };
@@ -158,37 +161,57 @@ static struct place computed_at(enum verify_field field, const struct solver_out
 {
     size_t dim = (size_t)output->cloud->dim;
     bool stress = field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL;
-    const double *tensor = stress ? output->sigma : field == VERIFY_F ? output->F : output->P;
+    const double *tensor = stress              ? output->sigma
+                           : field == VERIFY_F ? output->F
+                           : field == VERIFY_H ? output->H
+                                               : output->P;
     bool normal = field == VERIFY_P || field == VERIFY_SIGMA;
-    if (field == VERIFY_p || field == VERIFY_u) {
-        return (struct place){(field == VERIFY_u ? output->u : output->p) + a * dim, false, false, 0};
+    if (field == VERIFY_J) {
+        return (struct place){output->J + a, 1, false, false, 0};
     }
-    return (struct place){tensor != NULL ? tensor + a * dim * dim : NULL, true, normal, dim};
+    if (field == VERIFY_p || field == VERIFY_u) {
+        return (struct place){(field == VERIFY_u ? output->u : output->p) + a * dim, dim, false, false, 0};
+    }
+    return (struct place){tensor != NULL ? tensor + a * dim * dim : NULL, dim, true, normal, dim};
 }
 
-/* sigma: where an oracle's Cauchy stress may go. */
+/* Where what follows from an oracle's state may go. */
+struct derived {
+    double sigma[9], H[9], J;
+};
+
 static struct place exact_at(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
-                             double sigma[9])
+                             struct derived *derived)
 {
+    size_t dim = (size_t)kind->dim;
     bool stress = field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL;
     bool normal = field == VERIFY_P || field == VERIFY_SIGMA;
     if (field == VERIFY_p || field == VERIFY_u) {
-        return (struct place){field == VERIFY_u ? state->u : state->p, false, false, 0};
+        return (struct place){field == VERIFY_u ? state->u : state->p, dim, false, false, 0};
     }
     if (stress) {
-        oracle_cauchy(kind, state, sigma);
+        oracle_cauchy(kind, state, derived->sigma);
+    } else if (field == VERIFY_H || field == VERIFY_J) {
+        derived->J = oracle_measures(kind->finite_strain, state->F, derived->H);
     }
-    return (struct place){stress ? sigma : field == VERIFY_F ? state->F : state->P, true, normal, 3};
+    if (field == VERIFY_J) {
+        return (struct place){&derived->J, 1, false, false, 0};
+    }
+    const double *tensor = stress              ? derived->sigma
+                           : field == VERIFY_F ? state->F
+                           : field == VERIFY_H ? derived->H
+                                               : state->P;
+    return (struct place){tensor, dim, true, normal, 3};
 }
 
-/* One particle's components of a field; returns how many. `shift` is taken from the diagonal. */
-static size_t gather(struct place place, size_t dim, double shift, double *out)
+/* One particle's components of a field; returns how many. `shift` is taken from the diagonal, or from a scalar. */
+static size_t gather(struct place place, double shift, double *out)
 {
     size_t width = 0;
-    for (size_t i = 0; i < dim; i++) {
-        for (size_t j = 0; j < (place.tensor ? dim : 1); j++) {
+    for (size_t i = 0; i < place.width; i++) {
+        for (size_t j = 0; j < (place.tensor ? place.width : 1); j++) {
             if (!place.tensor) {
-                out[width++] = place.of[i];
+                out[width++] = place.of[i] - shift;
             } else if (!place.normal_only || i == j) {
                 out[width++] = place.of[i * place.row + j] - (i == j ? shift : 0.0);
             }
@@ -201,16 +224,15 @@ static struct verify_norms measure(enum verify_field field, const struct solver_
                                    const struct oracle_kind *kind, const struct oracle_state *state, double *computed,
                                    double *exact)
 {
-    size_t dim = (size_t)output->cloud->dim;
     size_t width = 0;
-    double shift = field == VERIFY_F ? 1.0 : 0.0;
-    double sigma[9];
+    double shift = field == VERIFY_F || field == VERIFY_H || field == VERIFY_J ? 1.0 : 0.0;
+    struct derived derived;
     if (computed_at(field, output, 0).of == NULL) {
         return (struct verify_norms){NAN, NAN, NAN, NAN, NAN}; /* the scheme does not know it */
     }
     for (size_t a = 0; a < output->cloud->count; a++) {
-        width = gather(computed_at(field, output, a), dim, shift, computed + a * width);
-        (void)gather(exact_at(field, kind, &state[a], sigma), dim, shift, exact + a * width);
+        width = gather(computed_at(field, output, a), shift, computed + a * width);
+        (void)gather(exact_at(field, kind, &state[a], &derived), shift, exact + a * width);
     }
     return verify_norms_field(output->cloud->count, width, output->V, computed, exact);
 }
