@@ -66,9 +66,9 @@ bool solver_cloud_box(const struct solver_box *box, struct solver_cloud **cloud,
  * together along one curve. SOLVER_BAD_INPUT where a shape is not a whole number of spacings thick, or two overlap. */
 bool solver_cloud_bodies(int dim, const struct solver_shape *shape, size_t shape_count, double spacing,
                          struct solver_cloud **cloud, struct solver_error *error);
-/* A disc, a ball or a cylinder, with particles on its surface, in concentric shells a spacing apart; around a shell they
- * are pi/4 of a spacing apart, near the corners of a ball's shells less. Volumes sum to the body's and have its first
- * moments, and area vectors along the exact normals satisfy the divergence theorem for quadratic fields
+/* A disc, a ball or a cylinder, with particles on its surface, in concentric shells a spacing apart; around a shell
+ * they are pi/4 of a spacing apart, near the corners of a ball's shells less. Volumes sum to the body's and have its
+ * first moments, and area vectors along the exact normals satisfy the divergence theorem for quadratic fields
  * (cloud_round.c). SOLVER_BAD_INPUT where radius or length is not a whole number of spacings. */
 bool solver_cloud_round(const struct solver_shape *shape, double spacing, struct solver_cloud **cloud,
                         struct solver_error *error);

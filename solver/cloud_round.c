@@ -2,16 +2,15 @@
  *
  * The lattice of a square or cube is bent: its k-th shell goes to the circle or sphere of k spacings, and each of its 4
  * or 6 faces is divided into 2k equal angles (the equiangular cubed sphere: Ronchi, Iacono, Paolucci 1996, J. Comput.
- * Phys. 124, 93). A particle's share omega of all directions is the exact angle or solid angle between the half-way lines
- * of that grid, which are great circles. From it follow
- *     V = omega (outer^d - inner^d) / d,    B = omega R^(d-1) N,    N = (X - centre) / R,
- * the volume between half-way radii, and for a particle on the surface its area along the exact normal there; d is 2
- * or 3. Shares of a shell sum to 2 pi or 4 pi, so sum V = |V| and sum (X - centre) . B = d |V|. The cloud is its own
- * image under all symmetries of the cube, so what is odd sums to zero and sum X (x) B is a multiple of the identity:
- * the divergence theorem holds for quadratic fields, and the constraints of a closed stencil are compatible. (Area
- * vectors of a polyhedron through the particles would close as well; but its volume is less than the body's, and in 3D
- * they are not along the normals, so that a traction given on the body's surface would not balance a constant stress.)
- * A cylinder is a disc times the trapezoidal rule along Z, which keeps all of it. */
+ * Phys. 124, 93). A particle's share omega of all directions is the exact angle or solid angle between the half-way
+ * lines of that grid, which are great circles. From it follow V = omega (outer^d - inner^d) / d,    B = omega R^(d-1)
+ * N,    N = (X - centre) / R, the volume between half-way radii, and for a particle on the surface its area along the
+ * exact normal there; d is 2 or 3. Shares of a shell sum to 2 pi or 4 pi, so sum V = |V| and sum (X - centre) . B = d
+ * |V|. The cloud is its own image under all symmetries of the cube, so what is odd sums to zero and sum X (x) B is a
+ * multiple of the identity: the divergence theorem holds for quadratic fields, and the constraints of a closed stencil
+ * are compatible. (Area vectors of a polyhedron through the particles would close as well; but its volume is less than
+ * the body's, and in 3D they are not along the normals, so that a traction given on the body's surface would not
+ * balance a constant stress.) A cylinder is a disc times the trapezoidal rule along Z, which keeps all of it. */
 #include "solver/cloud_internal.h"
 #include "solver/memory.h"
 
@@ -61,7 +60,7 @@ static bool lay_out(const struct solver_shape *shape, double spacing, struct ben
     for (int axis = 0; axis < bent->dim; axis++) {
         if (!isfinite(shape->centre[axis])) {
             return solver_fail(error, SOLVER_BAD_INPUT, "domain: centre %c = %g m; expected a finite number",
-                               "XYZ"[axis], shape->centre[axis]);
+                               "XYZ"[axis], shape -> centre[axis]);
         }
     }
     if (!count_spacings("radius", shape->outer, spacing, &bent->shells, error) ||

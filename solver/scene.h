@@ -40,7 +40,7 @@ enum solver_formula {
     SOLVER_FACE_X0,     /* faces.X0.value: traction [Pa] or velocity [m/s]; X1, Y0, Y1, Z0, Z1 follow */
     SOLVER_FACE_Z1 = SOLVER_FACE_X0 + 5,
     SOLVER_FACE_SURFACE, /* the same of the curved face of a round domain */
-    SOLVER_SHEAR_X0, /* faces.X0.traction: traction [Pa] of a roller; X1, Y0, Y1, Z0, Z1 follow */
+    SOLVER_SHEAR_X0,     /* faces.X0.traction: traction [Pa] of a roller; X1, Y0, Y1, Z0, Z1 follow */
     SOLVER_SHEAR_SURFACE = SOLVER_SHEAR_X0 + 6, /* no scene has it */
     SOLVER_FORMULAS
 };
@@ -184,10 +184,10 @@ struct solver_scene {
     char *text;               /* the whole file */
     char *overrides;          /* "KEY=value\n" lines as given, "" if none */
 
-    int dim;                   /* 1, 2, 3 */
-    double lower[3], upper[3]; /* box domain, or the box around a round one or around all bodies [m] */
+    int dim;                    /* 1, 2, 3 */
+    double lower[3], upper[3];  /* box domain, or the box around a round one or around all bodies [m] */
     struct solver_shape domain; /* its kind; without its box */
-    size_t shape_count;        /* 0: one body, the domain */
+    size_t shape_count;         /* 0: one body, the domain */
     struct solver_shape shape[SOLVER_BODIES];
     enum solver_lattice lattice;
     enum solver_wall_motion wall_motion;

@@ -229,9 +229,10 @@ void scene_check_faces(lua_State *L, const struct solver_scene *scene)
         if (!has_face(scene, f))
             scene_refuse(L, "%s: a domain of domain.shape = \"%s\" has no such face", key,
                          shape_names[scene->domain.kind]);
-        if (f == SOLVER_SURFACE && (scene->face[f] == SOLVER_SYMMETRIC || scene->face[f] == SOLVER_SKEW ||
-                                    scene->face[f] == SOLVER_ROLLER))
-            scene_refuse(L, "%s: '%s' is a condition on a plane; expected free, clamped, traction or motion", key, kind);
+        if (f == SOLVER_SURFACE &&
+            (scene->face[f] == SOLVER_SYMMETRIC || scene->face[f] == SOLVER_SKEW || scene->face[f] == SOLVER_ROLLER))
+            scene_refuse(L, "%s: '%s' is a condition on a plane; expected free, clamped, traction or motion", key,
+                         kind);
         if (scene->lattice == SOLVER_NODES)
             continue;
         if (solver_scene_wall(scene, f) == 0)

@@ -12,7 +12,7 @@
 #define OPTIONAL   ""
 #define ABOVE_ZERO DBL_MIN
 #define FACE_KINDS                                                                                                     \
-    "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f }, { kind = \"motion\", value = f, "    \
+    "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f }, { kind = \"motion\", value = f, "   \
     "free_after = t } or { kind = \"roller\", value = f, traction = f }"
 #define SURFACE_KINDS                                                                                                  \
     "free, clamped, { kind = \"traction\", value = f } or { kind = \"motion\", value = f, free_after = t }"

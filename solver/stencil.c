@@ -120,10 +120,11 @@ bool solver_stencil_create(const struct solver_stencil_builder *builder, const s
     struct solver_stencil *stencil = NULL;
     *out = NULL;
     if (builder->closed && cloud->face_point_count == 0) {
-        return solver_fail(error, SOLVER_BAD_INPUT,
-                           "stencil: %s closes over the faces of the body and needs particles on them; expected lattice = "
-                           "\"nodes\", or another stencil, say sph",
-                           builder->name);
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "stencil: %s closes over the faces of the body and needs particles on them; expected lattice = "
+            "\"nodes\", or another stencil, say sph",
+            builder->name);
     }
     if (builder->lattice_only && cloud->site == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT,

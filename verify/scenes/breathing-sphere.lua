@@ -16,6 +16,7 @@ levels = {4, 8, 12}
 material = { model = "linear-elastic", E = 17e6, nu = 0.3, rho = 1100 } -- Pa, -, kg/m^3
 local cp = math.sqrt(material.E * (1 - material.nu) / (1 + material.nu) / (1 - 2 * material.nu) / material.rho) -- m/s
 t_end = 5.0 * R / cp -- s: a little more than two periods, so that neither displacement nor velocity is near zero
+snapshots = { 0.294 * R / cp } -- s: an eighth of a period
 golden = { t_end = R / cp } -- s
 
 scheme, evolved = "upwind", "pF"
@@ -27,7 +28,7 @@ oracle = { name = "breathing-sphere" }
 probes = { { name = "surface", X = {R, 0, 0} }, { name = "corner", X = {0.577 * R, 0.577 * R, 0.577 * R} } }
 figures = { period = { measure = "period", probe = "surface" } }
 
-gates = { { p = 0.05, P = 0.05, snapshots = 0.1 } }
+gates = { { p = 1, P = 1, u = 1, snapshots_p = 1, snapshots_P = 1, snapshots_u = 1, ["figure period"] = 1 } }
 
 view = {
     field = "displacement_x", range = {-5e-4, 5e-4}, bands = 10, -- m
