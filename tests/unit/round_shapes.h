@@ -13,7 +13,7 @@ static const double round_radius = 0.7, round_length = 0.525; /* m */
 static const struct solver_shape shapes[] = {
     {.kind = SOLVER_SHAPE_DISC, .centre = {0.3, -1.1}, .outer = 0.7},
     {.kind = SOLVER_SHAPE_BALL, .centre = {0.3, -1.1, 0.2}, .outer = 0.7},
-    {.kind = SOLVER_SHAPE_CYLINDER, .centre = {0.3, -1.1, 0.2}, .outer = 0.7, .round_length = 0.525},
+    {.kind = SOLVER_SHAPE_CYLINDER, .centre = {0.3, -1.1, 0.2}, .outer = 0.7, .length = 0.525},
 };
 enum { SHAPES = sizeof shapes / sizeof *shapes };
 
