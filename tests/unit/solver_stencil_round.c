@@ -9,10 +9,11 @@
  * force anywhere, and linear exactness up to the surface; and so gradient and divergence are adjoint. */
 static void closed(void)
 {
-    static const int finest[SHAPES] = {16, 8, 4};
+    static const int n_of[SHAPES][3] = {{4, 8, 16}, {3, 4, 6}, {4}};
     const struct solver_stencil_builder *builder = solver_stencil_find("closed");
     for (int s = 0; s < SHAPES; s++) {
-        for (int n = 4; n <= finest[s]; n *= 2) {
+        for (int level = 0; level < 3 && n_of[s][level] > 0; level++) {
+            int n = n_of[s][level];
             double widest = n <= 4 || s == 0 ? 2.1 : 1.6; /* the rest takes seconds */
             for (double support = 1.6; support <= widest; support += 0.5) {
                 struct solver_cloud *cloud = round_cloud(&shapes[s], n);
