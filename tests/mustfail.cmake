@@ -97,6 +97,8 @@ assay_unit_mutant(ulsph-tension-factor solver_ulsph_forces "a constant tension")
 assay_unit_mutant(ulsph-riemann-sign solver_ulsph_forces "Riemann term")
 assay_unit_mutant(ulsph-diffusion-across solver_ulsph_diffusion "nothing crosses between materials")
 assay_unit_mutant(ulsph-kernel-height solver_ulsph_pairs "kernel")
+assay_unit_mutant(round-share solver_cloud_round "volumes")
+assay_unit_mutant(round-area solver_cloud_round "divergence theorem")
 assay_unit_mutant(skin-late solver_skin "two that close in")
 assay_unit_mutant(contact-foresight solver_contact "two particles")
 
