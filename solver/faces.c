@@ -106,10 +106,12 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_cloud *cloud = body->cloud;
-    *faces = (struct solver_faces){.dim = cloud->dim, .body_force = solver_scene_has(scene, SOLVER_BODY_FORCE)};
+    *faces = (struct solver_faces){.dim = cloud->dim, .force_time = NAN};
     size_t most = geometry->face_point_count + cloud->wall_count;
     if (!solver_alloc((void **)&faces->constraint, most, sizeof *faces->constraint, "constraints", error) ||
-        !solver_alloc((void **)&faces->load, geometry->face_point_count, sizeof *faces->load, "loads", error)) {
+        !solver_alloc((void **)&faces->load, geometry->face_point_count, sizeof *faces->load, "loads", error) ||
+        (solver_scene_has(scene, SOLVER_BODY_FORCE) &&
+         !solver_alloc((void **)&faces->force, cloud->count * dim, sizeof *faces->force, "body force", error))) {
         return false;
     }
     for (size_t a = 0; a < cloud->count; a++) {
@@ -134,6 +136,7 @@ void solver_faces_free(struct solver_faces *faces)
 {
     free(faces->constraint);
     free(faces->load);
+    free(faces->force);
     *faces = (struct solver_faces){.constraint = NULL};
 }
 
@@ -194,7 +197,54 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
     return true;
 }
 
-bool solver_faces_load(const struct solver_faces *faces, const struct solver_body *body,
+/* Asks for the body force at time t, unless it is that of the last time. Formulas of the scene share an interpreter;
+ * what stands in for them may be asked by several threads. */
+static bool ask_body_force(struct solver_faces *faces, const struct solver_body *body, double t,
+                           struct solver_error *error)
+{
+    const struct solver_cloud *cloud = body->cloud;
+    size_t dim = (size_t)faces->dim;
+    bool good = true;
+    if (t == faces->force_time) {
+        return true;
+    }
+    faces->force_time = NAN;
+#pragma omp parallel for schedule(static) if (body->scene->drive != NULL)
+    for (size_t a = 0; a < cloud->count; a++) {
+        double X[3];
+        struct solver_error why;
+        place(cloud, a, X);
+        if (!solver_scene_eval(body->scene, SOLVER_BODY_FORCE, X, t, faces->force + a * dim, dim, &why)) {
+#pragma omp critical(solver_body_force)
+            {
+                *error = good ? why : *error;
+                good = false;
+            }
+        }
+    }
+    faces->force_time = good ? t : NAN;
+    return good;
+}
+
+static bool add_body_force(struct solver_faces *faces, const struct solver_body *body,
+                           const struct solver_geometry *geometry, double t, size_t lanes, const double *v,
+                           double *v_rate, double *power, struct solver_error *error)
+{
+    size_t dim = (size_t)faces->dim;
+    if (!ask_body_force(faces, body, t, error)) {
+        return false;
+    }
+    for (size_t a = 0; a < body->cloud->count; a++) {
+        const double *force = faces->force + a * dim;
+        for (size_t axis = 0; axis < dim; axis++) {
+            v_rate[a * lanes + axis] += force[axis] / body->constants[a * body->stride].rho;
+            *power += geometry->V[a] * force[axis] * v[a * lanes + axis];
+        }
+    }
+    return true;
+}
+
+bool solver_faces_load(struct solver_faces *faces, const struct solver_body *body,
                        const struct solver_geometry *geometry, double t, size_t lanes, const double *v, double *v_rate,
                        double *power, struct solver_error *error)
 {
@@ -224,15 +274,5 @@ bool solver_faces_load(const struct solver_faces *faces, const struct solver_bod
             *power += area * value[axis] * v[a * lanes + axis];
         }
     }
-    for (size_t a = 0; faces->body_force && a < cloud->count; a++) {
-        place(cloud, a, X);
-        if (!solver_scene_eval(scene, SOLVER_BODY_FORCE, X, t, value, dim, error)) {
-            return false;
-        }
-        for (size_t axis = 0; axis < dim; axis++) {
-            v_rate[a * lanes + axis] += value[axis] / constants[a * stride].rho;
-            *power += V[a] * value[axis] * v[a * lanes + axis];
-        }
-    }
-    return true;
+    return faces->force == NULL || add_body_force(faces, body, geometry, t, lanes, v, v_rate, power, error);
 }

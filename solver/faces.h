@@ -27,7 +27,8 @@ struct solver_faces {
     bool moved;                           /* some face is moved, which does work that nobody counts */
     size_t load_count;
     struct solver_face_point *load; /* face points of faces that prescribe a traction, or one across the normal */
-    bool body_force;
+    double *force;                  /* [count][dim] body force [N/m^3] at force_time; NULL: the scene has none */
+    double force_time; /* [s]; stages of a step share times, and what a formula says of one is asked once */
 };
 
 /* `geometry` is that of the body's scheme, here and below. */
@@ -40,7 +41,7 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
                             double *v, struct solver_error *error);
 /* Adds tractions and body forces at time t, per unit of reference area and volume, to v_rate; *power [W] becomes their
  * power at velocities v. */
-bool solver_faces_load(const struct solver_faces *faces, const struct solver_body *body,
+bool solver_faces_load(struct solver_faces *faces, const struct solver_body *body,
                        const struct solver_geometry *geometry, double t, size_t lanes, const double *v, double *v_rate,
                        double *power, struct solver_error *error);
 

@@ -198,7 +198,7 @@ static bool check_energy(const struct solver_run *run, struct solver_error *erro
         return true;
     }
     /* over the first steps of a load that starts from nothing, the quadrature of its work is poor */
-    bool loaded = run->faces.load_count > 0 || run->faces.body_force;
+    bool loaded = run->faces.load_count > 0 || run->faces.force != NULL;
     if (loaded && run->step < 20) {
         return true;
     }

@@ -52,6 +52,8 @@ assay_test(cli-bench-without-stencil LABELS unit COMMAND ${cli} 0 "-        -   
   ${assay} bench swinging-cube --set scheme=ulsph --set n=4)
 assay_test(cli-list-materials LABELS unit COMMAND ${cli} 0 "Hooke's law" ${assay} list materials)
 assay_test(cli-list-stencils LABELS unit COMMAND ${cli} 0 "summation-by-parts 4-2" ${assay} list stencils)
+assay_test(cli-list-claims LABELS unit COMMAND ${cli} 0 "to degree 4, 2 at the boundary" ${assay} list stencils)
+assay_test(cli-list-promises LABELS unit COMMAND ${cli} 0 "with ulsph.tension=stress" ${assay} list schemes)
 assay_test(cli-list-integrators LABELS unit COMMAND ${cli} 0 "four-stage" ${assay} list integrators)
 assay_test(cli-list-measures LABELS unit COMMAND ${cli} 0 "damped oscillation" ${assay} list measures)
 assay_test(cli-list-keys LABELS unit COMMAND ${cli} 0 "material.nu" ${assay} list keys)

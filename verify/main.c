@@ -27,15 +27,18 @@ static const struct verify_command commands[] = {
     {.name = "verify",
      .operands = "SCENE",
      .summary = "convergence study against the scene's oracle, with gates",
-     .help = "Runs a scene at several spacings and compares each result with the scene's exact solution, which first\n"
-             "has to prove itself. Prints errors and observed orders beside the published figures, then the gates:\n"
-             "what was measured, the bound, and whether it holds. Writes report.html, report.json, and the record and\n"
-             "pictures of the finest level. n counts spacings along the scene's reference length.\n\n"
-             "  assay verify swinging-cube\n"
-             "  assay verify swinging-cube --levels 8,16,24,32 --set cfl=0.4 --json result.json\n"
-             "  assay verify swinging-cube --set oracle.U0=5.05e-4   the oracle is told something else: gates fail\n\n"
-             "Exit code: 0 all gates pass, or none holds for the configuration, which is then said; 1 a gate or the\n"
-             "oracle's self-check fails; 2 the command line, the scene or a file is wrong; 3 the run broke down.",
+     .help =
+         "Runs a scene at several spacings and compares each result with the scene's exact solution, which first\n"
+         "has to prove itself. Prints errors and observed orders beside the published figures, then the gates:\n"
+         "what was measured, the bound, and whether it holds. Writes report.html, report.json, and the record and\n"
+         "pictures of the finest level. n counts spacings along the scene's reference length.\n\n"
+         "  assay verify swinging-cube\n"
+         "  assay verify swinging-cube --levels 8,16,24,32 --set cfl=0.4 --json result.json\n"
+         "  assay verify swinging-cube --set oracle.U0=5.05e-4   the oracle is told something else: gates fail\n\n"
+         "SCENE may be mms: manufactured solutions, run for every scheme, stencil, evolved set, material, integrator\n"
+         "and kind of boundary data, and the orders that they achieve in one table.\n\n"
+         "Exit code: 0 all gates pass, or none holds for the configuration, which is then said; 1 a gate or the\n"
+         "oracle's self-check fails; 2 the command line, the scene or a file is wrong; 3 the run broke down.",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_LEVELS | VERIFY_TAKES_JSON | VERIFY_TAKES_OUT,
      .least = 1,
      .most = 1,
