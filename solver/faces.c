@@ -111,7 +111,8 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
     if (!solver_alloc((void **)&faces->constraint, most, sizeof *faces->constraint, "constraints", error) ||
         !solver_alloc((void **)&faces->load, geometry->face_point_count, sizeof *faces->load, "loads", error) ||
         (solver_scene_has(scene, SOLVER_BODY_FORCE) &&
-         !solver_alloc((void **)&faces->force, cloud->count * dim, sizeof *faces->force, "body force", error))) {
+         !solver_alloc((void **)&faces->force, cloud->count * (size_t)cloud->dim, sizeof *faces->force, "body force",
+                       error))) {
         return false;
     }
     for (size_t a = 0; a < cloud->count; a++) {
