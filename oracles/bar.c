@@ -1,4 +1,5 @@
 #include "oracles/bar.h"
+#include "oracles/kind.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,6 +18,11 @@ struct bar bar_make(double lower, double length, double E, double rho)
                         .c = c,
                         .Z = rho * c,
                         .T = (lower + length - lower) / c};
+}
+
+double bar_outside(const struct bar *bar, const double X[3])
+{
+    return oracle_outside_box(1, &bar->lower, &bar->upper, X);
 }
 
 void bar_state(const struct bar *bar, double u, double v, double stress, struct oracle_state *state)

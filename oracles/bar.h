@@ -14,6 +14,9 @@ struct bar {
 
 struct bar bar_make(double lower, double length, double E, double rho);
 
+/* Distance [m] of X from it. */
+double bar_outside(const struct bar *bar, const double X[3]);
+
 /* All fields at a point from displacement, velocity and stress. */
 void bar_state(const struct bar *bar, double u, double v, double stress, struct oracle_state *state);
 

@@ -126,6 +126,11 @@ static void state(const struct oracle *o, const double X[3], double t, struct or
     bar_state(bar, (u[0] + u[1]) / 2, (v[0] + v[1]) / 2, bar->Z * (v[1] - v[0]) / 2, at);
 }
 
+static double outside(const struct oracle *o, const double X[3])
+{
+    return fmin(bar_outside(&o->left, X), bar_outside(&o->right, X));
+}
+
 static void energy(const struct oracle *o, double t, double *kinetic, double *strain)
 {
     *kinetic = *strain = 0;
@@ -314,6 +319,7 @@ const struct oracle_kind oracle_bimaterial_wave = {
     .create = create,
     .destroy = oracle_release,
     .state = state,
+    .outside = outside,
     .energy = energy,
     .fronts = fronts,
     .figures = figures,

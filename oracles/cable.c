@@ -92,6 +92,11 @@ static size_t fronts(const struct oracle *o, double t, struct oracle_front front
     return count;
 }
 
+static double outside(const struct oracle *o, const double X[3])
+{
+    return bar_outside(&o->bar, X);
+}
+
 static void energy(const struct oracle *o, double t, double *kinetic, double *strain)
 {
     *kinetic = *strain = 0;
@@ -201,6 +206,7 @@ const struct oracle_kind oracle_cable = {
     .create = create,
     .destroy = oracle_release,
     .state = state,
+    .outside = outside,
     .energy = energy,
     .fronts = fronts,
     .figures = figures,

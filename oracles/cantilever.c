@@ -52,6 +52,11 @@ static void state(const struct oracle *o, const double X[3], double t, struct or
     }
 }
 
+static double outside(const struct oracle *o, const double X[3])
+{
+    return plate_outside(&o->given, X);
+}
+
 /* Per metre of width. */
 static void energy(const struct oracle *o, double t, double *kinetic, double *strain)
 {
@@ -170,6 +175,7 @@ static size_t figures(const struct oracle *o, struct oracle_figure figure[ORACLE
         .create = CREATE,                                                                                              \
         .destroy = destroy,                                                                                            \
         .state = state,                                                                                                \
+        .outside = outside,                                                                                            \
         .energy = energy,                                                                                              \
         .figures = figures,                                                                                            \
         .check = cantilever_check,                                                                                     \

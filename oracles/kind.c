@@ -33,6 +33,16 @@ bool oracle_out_of_range(const struct oracle_parameter *parameter, const double 
     return false;
 }
 
+double oracle_outside_box(int dim, const double *lower, const double *upper, const double *X)
+{
+    double sum = 0;
+    for (int i = 0; i < dim; i++) {
+        double beyond = X[i] < lower[i] ? lower[i] - X[i] : X[i] > upper[i] ? X[i] - upper[i] : 0 * X[i];
+        sum = hypot(sum, beyond);
+    }
+    return sum;
+}
+
 bool oracle_no_memory(size_t size, char why[ORACLE_WHY])
 {
     (void)snprintf(why, ORACLE_WHY, "no memory for %zu bytes", size);

@@ -1,4 +1,5 @@
 #include "oracles/plate.h"
+#include "oracles/kind.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -40,6 +41,12 @@ bool plate_read(const double *value, struct plate *plate, char why[ORACLE_WHY])
                             .nu = value[5],
                             .rho = value[6]};
     return true;
+}
+
+double plate_outside(const struct plate *plate, const double X[3])
+{
+    double half = plate->height / 2;
+    return oracle_outside_box(2, (const double[]){0, -half}, (const double[]){plate->length, half}, X);
 }
 
 struct oracle_beam plate_beam(const struct plate *plate, bool plane_stress)

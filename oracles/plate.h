@@ -19,6 +19,9 @@ extern const struct oracle_parameter plate_parameters[];
 /* False, with `why` filled, if length and height are no plate's or the mode is not a whole number. */
 bool plate_read(const double *value, struct plate *plate, char why[ORACLE_WHY]);
 
+/* The `outside` of its kinds. */
+double plate_outside(const struct plate *plate, const double X[3]);
+
 struct oracle_beam plate_beam(const struct plate *plate, bool plane_stress);
 
 /* The body in the units of ritz.h, and the frequency [rad/s] that is 1 there. */

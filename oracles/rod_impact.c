@@ -166,6 +166,11 @@ static size_t fronts(const struct oracle *o, double t, struct oracle_front front
     return count == ORACLE_TOO_MANY_FRONTS ? count : without_cancelled(front, count, SAME * o->closing);
 }
 
+static double outside(const struct oracle *o, const double X[3])
+{
+    return fmin(bar_outside(&o->rod[0], X), bar_outside(&o->rod[1], X));
+}
+
 static void energy(const struct oracle *o, double t, double *kinetic, double *strain)
 {
     *kinetic = *strain = 0;
@@ -400,6 +405,7 @@ const struct oracle_kind oracle_rod_impact = {
     .create = create,
     .destroy = oracle_release,
     .state = state,
+    .outside = outside,
     .energy = energy,
     .fronts = fronts,
     .figures = figures,

@@ -90,6 +90,12 @@ static void state(const struct oracle *o, const double X[3], double t, struct or
     }
 }
 
+static double outside(const struct oracle *o, const double X[3])
+{
+    (void)o;
+    return oracle_outside_box(3, (const double[]){0, 0, 0}, (const double[]){SIDE, SIDE, SIDE}, X);
+}
+
 /* Every product of squared sines and cosines integrates to 1/8 over the cube. With S the sum of the amplitudes and Q
  * the sum of their squares, |e|^2 integrates to k^2 (Q + (Q + S^2)/2) / 8 and (tr e)^2 to k^2 S^2 / 8. */
 static void energy(const struct oracle *o, double t, double *kinetic, double *strain)
@@ -261,6 +267,7 @@ const struct oracle_kind oracle_swinging_cube = {
     .create = create,
     .destroy = oracle_release,
     .state = state,
+    .outside = outside,
     .energy = energy,
     .check = check,
 };

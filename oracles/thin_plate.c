@@ -35,6 +35,11 @@ static void state(const struct oracle *o, const double X[3], double t, struct or
     at->P[8] = g->nu * at->P[0];
 }
 
+static double outside(const struct oracle *o, const double X[3])
+{
+    return plate_outside(&o->given, X);
+}
+
 /* Per metre of width. The square of any mode, 1 at the free end, has the mean 1/4. */
 static void energy(const struct oracle *o, double t, double *kinetic, double *strain)
 {
@@ -116,6 +121,7 @@ const struct oracle_kind oracle_thin_plate = {
     .create = create,
     .destroy = oracle_release,
     .state = state,
+    .outside = outside,
     .energy = energy,
     .figures = figures,
     .check = thin_plate_check,

@@ -1,4 +1,5 @@
-/* What the writer and the reader of records must agree on. Private to record*.c. */
+/* What the writer and the reader of records must agree on. Private to record*.c, but for what HDF5 says of a failure,
+ * which readers of files that are not records may ask as well. */
 #ifndef SOLVER_RECORD_FORMAT_H
 #define SOLVER_RECORD_FORMAT_H
 

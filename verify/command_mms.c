@@ -1,9 +1,9 @@
 /* `assay verify mms`: the suite of manufactured solutions as a table, and as JSON. */
 #include "verify/commands.h"
 #include "verify/find.h"
+#include "verify/json.h"
 #include "verify/manufactured.h"
 #include "verify/mms.h"
-#include "verify/report.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -88,7 +88,7 @@ static void run_family(struct suite *suite, size_t first, size_t last)
     bool shows = isatty(STDERR_FILENO) == 1;
 #pragma omp parallel for schedule(dynamic)
     for (size_t i = first; i < last; i++) {
-        verify_mms_run(&suite->cases[i], &suite->result[i]);
+        verify_mms_run(&suite->cases[i], NULL, &suite->result[i]);
 #pragma omp critical
         {
             done++;
@@ -121,21 +121,12 @@ static void run_suite(struct suite *suite)
 
 /* --- JSON --- */
 
-static void write_number(FILE *file, double value)
-{
-    if (isfinite(value)) {
-        (void)fprintf(file, "%.17g", value);
-    } else {
-        (void)fputs("null", file);
-    }
-}
-
 static void write_variables(FILE *file, const char *key, const double *value)
 {
     (void)fprintf(file, ", \"%s\": {", key);
     for (int i = 0; i < VERIFY_MMS_VARIABLES; i++) {
         (void)fprintf(file, "%s\"%s\": ", i == 0 ? "" : ", ", verify_mms_variable_names[i]);
-        write_number(file, value[i]);
+        verify_json_number(file, value[i]);
     }
     (void)fputc('}', file);
 }
@@ -171,7 +162,7 @@ static void write_gates(FILE *file, const struct suite *suite)
             (void)fprintf(file, "%s\n    {\"name\": \"rate %s\", \"study\": ", between, verify_mms_variable_names[v]);
             write_name(file, which);
             (void)fputs(", \"value\": ", file);
-            write_number(file, order);
+            verify_json_number(file, order);
             (void)fprintf(file, ", \"bound\": %.17g, \"op\": \">=\", \"pass\": %s}", bound,
                           order >= bound ? "true" : "false");
             between = ",";

@@ -148,40 +148,28 @@ static bool run_levels(struct work *work, struct solver_error *error)
     return verify_study_judge(&work->study, error);
 }
 
-enum format { JSON, HTML };
-
-/* Builds a report in memory and writes it whole. */
-static bool write_report(const struct work *work, enum format format, const char *path, struct solver_error *error)
+/* Two verify_writers. */
+static bool write_json(FILE *file, const void *context, struct solver_error *error)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *memory = open_memstream(&text, &size);
-    if (memory == NULL) {
-        return solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for the report", path);
-    }
-    bool done = true;
-    if (format == JSON) {
-        verify_json(memory, &work->study);
-    } else {
-        done = verify_html(memory, &work->study, work->shown, work->shown_count, error);
-    }
-    bool whole = ferror(memory) == 0;
-    whole = fclose(memory) == 0 && whole;
-    if (done && !whole) {
-        done = solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for the report", path);
-    }
-    done = done && verify_file_write(path, text, size, error);
-    free(text);
-    return done;
+    const struct work *work = context;
+    (void)error;
+    verify_json(file, &work->study);
+    return true;
+}
+
+static bool write_html(FILE *file, const void *context, struct solver_error *error)
+{
+    const struct work *work = context;
+    return verify_html(file, &work->study, work->shown, work->shown_count, error);
 }
 
 static bool write_reports(const struct work *work, struct solver_error *error)
 {
     char html[VERIFY_PATH], json[VERIFY_PATH];
     if (!verify_path_join(html, work->folder, "report", ".html", error) ||
-        !verify_path_join(json, work->folder, "report", ".json", error) || !write_report(work, HTML, html, error) ||
-        !write_report(work, JSON, json, error) ||
-        (work->options->json != NULL && !write_report(work, JSON, work->options->json, error))) {
+        !verify_path_join(json, work->folder, "report", ".json", error) ||
+        !verify_report_write(html, write_html, work, error) || !verify_report_write(json, write_json, work, error) ||
+        (work->options->json != NULL && !verify_report_write(work->options->json, write_json, work, error))) {
         return false;
     }
     (void)printf("\nreport     %s\n           %s\n", html, json);
@@ -250,6 +238,9 @@ static bool study(struct work *work, bool *passed, struct solver_error *error)
 int verify_command_verify(const struct verify_options *options)
 {
     struct solver_error error = {.code = SOLVER_OK};
+    if (options->mutations) {
+        return verify_command_mutations(options);
+    }
     if (strcmp(options->operand[0], "mms") == 0) {
         return verify_command_mms(options);
     }

@@ -4,6 +4,7 @@
 
 #include "solver/error.h"
 #include "verify/norms.h"
+#include "verify/spoiled_drive.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -48,10 +49,8 @@ struct verify_mms_result {
 /* All cases: *cases is the caller's to free. False if there is no memory. */
 bool verify_mms_cases(struct verify_mms_case **cases, size_t *count, struct solver_error *error);
 
-/* Runs a case on one thread. What goes wrong is in the result. */
-void verify_mms_run(const struct verify_mms_case *which, struct verify_mms_result *result);
-
-/* The largest relative error that says nothing: what is zero in the exact solution has an error, but no order. */
-bool verify_mms_is_gated(const struct verify_mms_case *which, enum verify_mms_variable variable);
+/* Runs a case on one thread, with a fault in what drives the body if there is one. What goes wrong is in the result. */
+void verify_mms_run(const struct verify_mms_case *which, const struct verify_spoiled_drive *spoiled,
+                    struct verify_mms_result *result);
 
 #endif

@@ -56,15 +56,45 @@ static void free_done(struct done *done)
     *done = (struct done){.scene = NULL};
 }
 
-static bool run_once(const struct verify_mms_case *which, int n, double cfl, const char *integrator, struct done *done,
-                     struct solver_error *error)
+/* Stands between the run and what drives it. */
+struct spoiler {
+    const struct verify_spoiled_drive *spoiled;
+    struct verify_driven right;
+};
+
+static void drive_wrongly(const void *context, enum solver_formula formula, const double X[3], double t,
+                          double value[3])
+{
+    const struct spoiler *spoiler = context;
+    spoiler->spoiled->spoil(&spoiler->right, formula, X, t, value);
+}
+
+/* To the end, with the fault in its place. */
+static bool advance(struct done *done, const struct verify_spoiled_drive *spoiled, struct solver_error *error)
+{
+    struct solver_scene *scene = done->scene;
+    if (spoiled == NULL) {
+        return solver_run_to(done->run, scene->t_end, NULL, NULL, error);
+    }
+    struct spoiler spoiler = {spoiled, {scene, scene->drive, scene->drive_context, 0}};
+    void *context = scene->drive_context;
+    spoiler.right.step = scene->cfl * solver_run_facts(done->run).spacing;
+    scene->drive = drive_wrongly;
+    scene->drive_context = &spoiler;
+    bool good = solver_run_to(done->run, scene->t_end, NULL, NULL, error);
+    scene->drive = spoiler.right.drive;
+    scene->drive_context = context;
+    return good;
+}
+
+static bool run_once(const struct verify_mms_case *which, int n, double cfl, const char *integrator,
+                     const struct verify_spoiled_drive *spoiled, struct done *done, struct solver_error *error)
 {
     *done = (struct done){.scene = NULL};
     bool good = open_scene(which, n, cfl, integrator, &done->scene, error);
 #pragma omp critical(verify_mms_create) /* the serial BLAS under CHOLMOD is not for several threads at a time */
     good = good && verify_run_create(done->scene, &done->run, error);
-    good = good && solver_run_to(done->run, done->scene->t_end, NULL, NULL, error) &&
-           solver_run_output(done->run, &done->output, error);
+    good = good && advance(done, spoiled, error) && solver_run_output(done->run, &done->output, error);
     if (good) {
         done->facts = solver_run_facts(done->run);
     }
@@ -73,13 +103,13 @@ static bool run_once(const struct verify_mms_case *which, int n, double cfl, con
 
 /* --- in space --- */
 
-static bool measure(const struct verify_mms_case *which, int n, double error_of[VERIFY_MMS_VARIABLES], double *h,
-                    struct solver_error *error)
+static bool measure(const struct verify_mms_case *which, const struct verify_spoiled_drive *spoiled, int n,
+                    double error_of[VERIFY_MMS_VARIABLES], double *h, struct solver_error *error)
 {
     struct done done;
     struct verify_truth truth = {.kind = NULL};
     double all[VERIFY_STATE_ERRORS];
-    bool good = run_once(which, n, 0, NULL, &done, error) && verify_truth_create(done.scene, &truth, error) &&
+    bool good = run_once(which, n, 0, NULL, spoiled, &done, error) && verify_truth_create(done.scene, &truth, error) &&
                 verify_norms_state(&done.output, truth.kind, truth.oracle, all, error);
     if (good && !truth.proven) {
         good = solver_fail(error, SOLVER_BROKE_DOWN, "the oracle %s does not pass its own check", truth.kind->name);
@@ -94,11 +124,12 @@ static bool measure(const struct verify_mms_case *which, int n, double error_of[
     return good;
 }
 
-static bool run_in_space(const struct verify_mms_case *which, struct verify_mms_result *result)
+static bool run_in_space(const struct verify_mms_case *which, const struct verify_spoiled_drive *spoiled,
+                         struct verify_mms_result *result)
 {
     double coarse[VERIFY_MMS_VARIABLES], h[VERIFY_MMS_LEVELS];
-    if (!measure(which, which->level[0], coarse, &h[0], &result->error) ||
-        !measure(which, which->level[1], result->finest, &h[1], &result->error)) {
+    if (!measure(which, spoiled, which->level[0], coarse, &h[0], &result->error) ||
+        !measure(which, spoiled, which->level[1], result->finest, &h[1], &result->error)) {
         return false;
     }
     for (int i = 0; i < VERIFY_MMS_VARIABLES; i++) {
@@ -131,9 +162,9 @@ static bool run_in_time(const struct verify_mms_case *which, struct verify_mms_r
     struct done reference, done;
     double coarse[VERIFY_MMS_VARIABLES], step[VERIFY_MMS_LEVELS] = {0};
     double finest_cfl = LARGEST_CFL / which->level[1];
-    bool good = run_once(which, IN_TIME_N, finest_cfl / STEPS, "rk4", &reference, &result->error);
+    bool good = run_once(which, IN_TIME_N, finest_cfl / STEPS, "rk4", NULL, &reference, &result->error);
     for (int level = 0; good && level < VERIFY_MMS_LEVELS; level++) {
-        good = run_once(which, IN_TIME_N, LARGEST_CFL / which->level[level], NULL, &done, &result->error);
+        good = run_once(which, IN_TIME_N, LARGEST_CFL / which->level[level], NULL, NULL, &done, &result->error);
         for (int i = 0; good && i < VERIFY_MMS_VARIABLES; i++) {
             double error = distance(&done.output, &reference.output, (enum verify_mms_variable)i);
             *(level == 0 ? &coarse[i] : &result->finest[i]) = error;
@@ -148,19 +179,15 @@ static bool run_in_time(const struct verify_mms_case *which, struct verify_mms_r
     return good;
 }
 
-bool verify_mms_is_gated(const struct verify_mms_case *which, enum verify_mms_variable variable)
-{
-    return (variable == VERIFY_MMS_OF_p ? which->asked_p : which->asked) > 0;
-}
-
-void verify_mms_run(const struct verify_mms_case *which, struct verify_mms_result *result)
+void verify_mms_run(const struct verify_mms_case *which, const struct verify_spoiled_drive *spoiled,
+                    struct verify_mms_result *result)
 {
     double begun = omp_get_wtime();
     *result = (struct verify_mms_result){.pass = true};
     for (int i = 0; i < VERIFY_MMS_VARIABLES; i++) {
         result->finest[i] = result->order[i] = NAN;
     }
-    result->ran = which->in_time ? run_in_time(which, result) : run_in_space(which, result);
+    result->ran = which->in_time ? run_in_time(which, result) : run_in_space(which, spoiled, result);
     for (int i = 0; i < VERIFY_MMS_VARIABLES; i++) {
         double asked = i == VERIFY_MMS_OF_p ? which->asked_p : which->asked;
         /* what is zero in the exact solution, or exact in the computed one, has no order */

@@ -16,7 +16,9 @@
     ROW("H", "-", "cofactor of F less the identity, all components")                                                   \
     ROW("J", "-", "Jacobian less 1")                                                                                   \
     ROW("sigma", "Pa", "Cauchy stress, normal components")                                                             \
-    ROW("sigma_all", "Pa", "Cauchy stress, all components")
+    ROW("sigma_all", "Pa", "Cauchy stress, all components")                                                            \
+    ROW("v", "m/s", "velocity, all components")                                                                        \
+    ROW("pressure", "Pa", "mean Cauchy stress")
 #define OF_PROBES(ROW)                                                                                                 \
     ROW("probes", "m", "displacement at the probes over time, all components")                                         \
     ROW("probes_y", "m", "displacement along y at the probes over time")
@@ -39,12 +41,16 @@ static const char *const meaning_table[] = {
     "root mean square error along y at the probes over the scene's probe_scale",
     "relative L2 difference of the displacement at the probes over time from the configuration beside",
     "absolute L2 difference of the displacement at the probes over time from the configuration beside"};
+static const char *const suffix_table[] = {NAMES("", , )};
+static const char *const norm_meaning_table[] = {MEANINGS(, , "")};
+static const char *const norm_unit_table[] = {UNITS(, "of the field", )};
+_Static_assert(sizeof suffix_table == VERIFY_NORMS * sizeof *suffix_table, "one suffix per norm");
 _Static_assert(sizeof name_table == VERIFY_ERRORS * sizeof *name_table, "one name per error");
 _Static_assert(sizeof unit_table == VERIFY_ERRORS * sizeof *unit_table, "one unit per error");
 _Static_assert(sizeof meaning_table == VERIFY_ERRORS * sizeof *meaning_table, "one meaning per error");
 
 const char verify_error_names[] =
-    "p, P, P_all, u, F, H, J, sigma, sigma_all, probes, probes_y, each also with _abs, _max, _abs_max or "
+    "p, P, P_all, u, F, H, J, sigma, sigma_all, v, pressure, probes, probes_y, each also with _abs, _max, _abs_max or "
     "_l1, all but those of probes also with snapshots_ before "
     "it, probes_nrmse, probes_y_nrmse, beside and beside_abs";
 
@@ -85,6 +91,21 @@ struct verify_norms verify_norms_field(size_t count, size_t width, const double 
 const char *verify_error_name(size_t error)
 {
     return name_table[error];
+}
+
+const char *verify_norm_suffix(size_t norm)
+{
+    return suffix_table[norm];
+}
+
+const char *verify_norm_meaning(size_t norm)
+{
+    return norm_meaning_table[norm];
+}
+
+bool verify_norm_is_absolute(size_t norm)
+{
+    return norm_unit_table[norm][0] != '-';
 }
 
 const char *verify_error_unit(size_t error)
@@ -148,103 +169,108 @@ bool verify_error_applies(const struct solver_scene *scene, size_t error, const 
     return *lacks == NULL;
 }
 
-/* Where a field lies: [dim], or a tensor with rows of the given length, of which the normal components alone may
- * count. */
-struct place {
-    const double *of;
-    size_t width; /* components, of a tensor per row */
-    bool tensor, normal_only;
-    size_t row;
-};
-
-static struct place computed_at(enum verify_field field, const struct solver_output *output, size_t a)
+enum verify_shape verify_field_shape(enum verify_field field)
 {
-    size_t dim = (size_t)output->cloud->dim;
-    bool stress = field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL;
-    const double *tensor = stress              ? output->sigma
-                           : field == VERIFY_F ? output->F
-                           : field == VERIFY_H ? output->H
-                                               : output->P;
-    bool normal = field == VERIFY_P || field == VERIFY_SIGMA;
-    if (field == VERIFY_J) {
-        return (struct place){output->J + a, 1, false, false, 0};
-    }
-    if (field == VERIFY_p || field == VERIFY_u) {
-        return (struct place){(field == VERIFY_u ? output->u : output->p) + a * dim, dim, false, false, 0};
-    }
-    return (struct place){tensor != NULL ? tensor + a * dim * dim : NULL, dim, true, normal, dim};
+    bool vector = field == VERIFY_p || field == VERIFY_u || field == VERIFY_v;
+    bool scalar = field == VERIFY_PRESSURE || field == VERIFY_J;
+    return vector ? VERIFY_VECTOR : scalar ? VERIFY_SCALAR : VERIFY_TENSOR;
 }
 
-/* Where what follows from an oracle's state may go. */
-struct derived {
-    double sigma[9], H[9], J;
-};
-
-static struct place exact_at(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
-                             struct derived *derived)
+const char *verify_field_name(enum verify_field field)
 {
-    size_t dim = (size_t)kind->dim;
-    bool stress = field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL;
-    bool normal = field == VERIFY_P || field == VERIFY_SIGMA;
-    if (field == VERIFY_p || field == VERIFY_u) {
-        return (struct place){field == VERIFY_u ? state->u : state->p, dim, false, false, 0};
-    }
-    if (stress) {
-        oracle_cauchy(kind, state, derived->sigma);
-    } else if (field == VERIFY_H || field == VERIFY_J) {
-        derived->J = oracle_measures(kind->finite_strain, state->F, derived->H);
-    }
-    if (field == VERIFY_J) {
-        return (struct place){&derived->J, 1, false, false, 0};
-    }
-    const double *tensor = stress              ? derived->sigma
-                           : field == VERIFY_F ? state->F
-                           : field == VERIFY_H ? derived->H
-                                               : state->P;
-    return (struct place){tensor, dim, true, normal, 3};
+    return name_table[(size_t)VERIFY_NORMS * (size_t)field];
 }
 
-/* One particle's components of a field; returns how many. `shift` is taken from the diagonal, or from a scalar. */
-static size_t gather(struct place place, double shift, double *out)
+const char *verify_field_unit(enum verify_field field)
 {
-    size_t width = 0;
-    for (size_t i = 0; i < place.width; i++) {
-        for (size_t j = 0; j < (place.tensor ? place.width : 1); j++) {
-            if (!place.tensor) {
-                out[width++] = place.of[i] - shift;
-            } else if (!place.normal_only || i == j) {
-                out[width++] = place.of[i * place.row + j] - (i == j ? shift : 0.0);
+    return unit_table[(size_t)VERIFY_NORMS * (size_t)field + 1];
+}
+
+size_t verify_field_take(enum verify_field field, const double *value, size_t row, size_t dim, double out[9])
+{
+    enum verify_shape shape = verify_field_shape(field);
+    bool normal_only = field == VERIFY_P || field == VERIFY_SIGMA;
+    double shift = field == VERIFY_F || field == VERIFY_H || field == VERIFY_J ? 1.0 : 0.0;
+    size_t width = 0, rows = shape == VERIFY_SCALAR ? 1 : dim, columns = shape == VERIFY_TENSOR ? dim : 1;
+    for (size_t i = 0; i < rows; i++) {
+        for (size_t j = 0; j < columns; j++) {
+            if (shape != VERIFY_TENSOR) {
+                out[width++] = value[i] - shift;
+            } else if (!normal_only || i == j) {
+                out[width++] = value[i * row + j] - (i == j ? shift : 0.0);
             }
         }
     }
     return width;
 }
 
+size_t verify_field_exact(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
+                          size_t dim, double out[9])
+{
+    double sigma[9], H[9], J, pressure;
+    const double *value = field == VERIFY_p   ? state->p
+                          : field == VERIFY_u ? state->u
+                          : field == VERIFY_v ? state->v
+                          : field == VERIFY_F ? state->F
+                                              : state->P;
+    if (field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL || field == VERIFY_PRESSURE) {
+        oracle_cauchy(kind, state, sigma);
+        pressure = (sigma[0] + sigma[4] + sigma[8]) / 3;
+        value = field == VERIFY_PRESSURE ? &pressure : sigma;
+    } else if (field == VERIFY_H || field == VERIFY_J) {
+        J = oracle_measures(kind->finite_strain, state->F, H);
+        value = field == VERIFY_J ? &J : H;
+    }
+    return verify_field_take(field, value, 3, dim, out);
+}
+
+/* Particle a's value in a run; NULL if the scheme does not know the field. */
+static const double *computed_at(enum verify_field field, const struct solver_output *output, size_t a)
+{
+    size_t dim = (size_t)output->cloud->dim;
+    const double *of = field == VERIFY_p                                    ? output->p
+                       : field == VERIFY_u                                  ? output->u
+                       : field == VERIFY_v                                  ? output->v
+                       : field == VERIFY_PRESSURE                           ? output->pressure
+                       : field == VERIFY_F                                  ? output->F
+                       : field == VERIFY_H                                  ? output->H
+                       : field == VERIFY_J                                  ? output->J
+                       : field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL ? output->sigma
+                                                                            : output->P;
+    enum verify_shape shape = verify_field_shape(field);
+    return of == NULL ? NULL : of + a * (shape == VERIFY_SCALAR ? 1 : shape == VERIFY_VECTOR ? dim : dim * dim);
+}
+
 static struct verify_norms measure(enum verify_field field, const struct solver_output *output,
                                    const struct oracle_kind *kind, const struct oracle_state *state, double *computed,
                                    double *exact)
 {
-    size_t width = 0;
-    double shift = field == VERIFY_F || field == VERIFY_H || field == VERIFY_J ? 1.0 : 0.0;
-    struct derived derived;
-    if (computed_at(field, output, 0).of == NULL) {
+    size_t dim = (size_t)output->cloud->dim, width = 0;
+    if (computed_at(field, output, 0) == NULL) {
         return (struct verify_norms){NAN, NAN, NAN, NAN, NAN}; /* the scheme does not know it */
     }
     for (size_t a = 0; a < output->cloud->count; a++) {
-        width = gather(computed_at(field, output, a), shift, computed + a * width);
-        (void)gather(exact_at(field, kind, &state[a], &derived), shift, exact + a * width);
+        double of_run[9], of_oracle[9];
+        width = verify_field_take(field, computed_at(field, output, a), dim, dim, of_run);
+        (void)verify_field_exact(field, kind, &state[a], dim, of_oracle);
+        memcpy(computed + a * width, of_run, width * sizeof *computed);
+        memcpy(exact + a * width, of_oracle, width * sizeof *exact);
     }
     return verify_norms_field(output->cloud->count, width, output->V, computed, exact);
 }
 
-static void keep(double *error, enum verify_field field, struct verify_norms norms)
+void verify_norms_keep(double out[VERIFY_NORMS], struct verify_norms norms)
 {
-    double *out = error + (size_t)VERIFY_NORMS * (size_t)field;
     out[0] = norms.relative_l2;
     out[1] = norms.absolute_l2;
     out[2] = norms.relative_max;
     out[3] = norms.absolute_max;
     out[4] = norms.relative_l1;
+}
+
+static void keep(double *error, enum verify_field field, struct verify_norms norms)
+{
+    verify_norms_keep(error + (size_t)VERIFY_NORMS * (size_t)field, norms);
 }
 
 /* Of `count` displacements [3] those along y, in place. */

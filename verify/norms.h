@@ -38,6 +38,8 @@ enum verify_field {
     VERIFY_J,     /* Jacobian less 1 */
     VERIFY_SIGMA, /* normal components of the Cauchy stress */
     VERIFY_SIGMA_ALL,
+    VERIFY_v,        /* velocity, all components */
+    VERIFY_PRESSURE, /* mean Cauchy stress tr(sigma)/3, positive in tension */
     VERIFY_PROBES,   /* displacement at the probes, all components; sums over rows of the time history instead of
                         particles, each with weight 1, so that "probes_abs" is the root mean square error over time */
     VERIFY_PROBES_Y, /* the same along y alone: a deflection */
@@ -45,7 +47,7 @@ enum verify_field {
     VERIFY_STATE_FIELDS = VERIFY_PROBES /* those of a state at one time */
 };
 
-/* Errors have names: "p", "P", "P_all", "u", "F", "H", "J", "sigma", "sigma_all",
+/* Errors have names: "p", "P", "P_all", "u", "F", "H", "J", "sigma", "sigma_all", "v", "pressure",
  * "probes", "probes_y" are relative L2 norms; with "_abs" absolute L2, with "_max"
  * relative max, with "_abs_max" absolute max, with "_l1" relative L1. With "snapshots_" before the name of a state's
  * error, the largest of it over the scene's snapshots. "probes_nrmse" is probes_abs over the scene's
@@ -63,6 +65,11 @@ enum {
 };
 
 const char *verify_error_name(size_t error);
+/* One of the norms, in their order, as what comes after a field's name: "", "_abs", "_max", "_abs_max", "_l1"; as what
+ * comes before its meaning: "relative L2 error of the "; and whether it has the field's unit. */
+const char *verify_norm_suffix(size_t norm);
+const char *verify_norm_meaning(size_t norm);
+bool verify_norm_is_absolute(size_t norm);
 /* "-" for relative norms, the field's unit for absolute ones. */
 const char *verify_error_unit(size_t error);
 /* "relative L2 error of the linear momentum, all components" */
@@ -76,6 +83,22 @@ extern const char verify_error_names[];
 /* Whether the scene has what the error is of; if not, *lacks says what is missing: "snapshots", an oracle, or a scheme
  * that knows the field. */
 bool verify_error_applies(const struct solver_scene *scene, size_t error, const char **lacks);
+
+/* How the values of a field at one point are laid out, and which of them count. */
+enum verify_shape { VERIFY_SCALAR, VERIFY_VECTOR, VERIFY_TENSOR };
+enum verify_shape verify_field_shape(enum verify_field field);
+/* Name and unit of the field of a state: "P_all", "Pa". */
+const char *verify_field_name(enum verify_field field);
+const char *verify_field_unit(enum verify_field field);
+/* Components of a field at one point that count in `dim` dimensions, from a scalar, a vector [>= dim] or a tensor with
+ * rows of `row` numbers; returns how many. */
+size_t verify_field_take(enum verify_field field, const double *value, size_t row, size_t dim, double out[9]);
+/* The same of an oracle's state. */
+size_t verify_field_exact(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
+                          size_t dim, double out[9]);
+
+/* Stores the norms of a field in their order. */
+void verify_norms_keep(double error[VERIFY_NORMS], struct verify_norms norms);
 
 /* Errors of the present state against an oracle at its time. False if there is no memory. */
 bool verify_norms_state(const struct solver_output *output, const struct oracle_kind *kind, const struct oracle *oracle,

@@ -16,7 +16,7 @@ enum verify_exit {
     VERIFY_RUN_FAILED = 3, /* the run itself failed */
 };
 
-enum { VERIFY_OVERRIDES = 64, VERIFY_OPERANDS = 2, VERIFY_COMMAND_LINE = 2048 };
+enum { VERIFY_OVERRIDES = 64, VERIFY_OPERANDS = 16, VERIFY_COMMAND_LINE = 2048 };
 
 /* Options a command may take, as a bit set. */
 enum verify_takes {
@@ -26,6 +26,23 @@ enum verify_takes {
     VERIFY_TAKES_OUT = 8,
     VERIFY_TAKES_PICTURE = 16,
     VERIFY_TAKES_DIR = 32,
+    VERIFY_TAKES_ORACLE = 64, /* --oracle NAME */
+    VERIFY_TAKES_PARAM = 128, /* --param KEY=VALUE, --typical */
+    VERIFY_TAKES_NORM = 256,
+    VERIFY_TAKES_GATE = 512,
+    VERIFY_TAKES_ORDER = 1024,
+    VERIFY_TAKES_TIME = 2048,
+    VERIFY_TAKES_SPACING = 4096,
+    VERIFY_TAKES_PLACES = 8192, /* --points FILE, --grid RANGES, --inside */
+    VERIFY_TAKES_TABLE = 16384, /* --output FILE.h5 or FILE.csv */
+    VERIFY_TAKES_TOLERANCE = 32768,
+    VERIFY_TAKES_MUTATIONS = 65536, /* --mutations, in place of any word */
+};
+
+/* What an option that may be repeated was given, in order. */
+struct verify_list {
+    size_t count;
+    const char *text[VERIFY_OVERRIDES];
 };
 
 struct verify_options {
@@ -36,7 +53,14 @@ struct verify_options {
     size_t level_count;                     /* 0: those of the scene */
     int level[SOLVER_LEVELS];
     const char *json, *out, *picture, *dir; /* NULL where not given */
+    bool has_tolerance;
+    double tolerance[2];                                           /* shares of pixels: in all, within the worst tile */
+    const char *oracle, *times, *spacings, *points, *grid, *table; /* NULL where not given */
+    struct verify_list param, norm, gate, order;
+    bool typical; /* the oracle's typical values in place of what is not given */
+    bool inside;  /* places outside the body are left out */
     bool help;
+    bool mutations;
     char line[VERIFY_COMMAND_LINE]; /* the command line as typed, for the record */
 };
 
@@ -54,6 +78,14 @@ struct verify_command {
 /* Reads the words after the command's name. Errors (SOLVER_BAD_INPUT) name the word and suggest what was meant. */
 bool verify_options_parse(const struct verify_command *command, int count, char *const *words,
                           struct verify_options *options, struct solver_error *error);
+
+/* The options of a command, as help and manual show them; returns how many there are. */
+struct verify_option_line {
+    char words[48];   /* "-s, --set KEY=VALUE", or "    --oracle NAME" */
+    const char *help; /* one line */
+};
+enum { VERIFY_OPTIONS = 32 }; /* no command has more */
+size_t verify_options_lines(const struct verify_command *command, struct verify_option_line line[VERIFY_OPTIONS]);
 
 /* Usage line, help and options of one command. */
 void verify_options_help(FILE *file, const struct verify_command *command);

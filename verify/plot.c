@@ -44,7 +44,7 @@ static double y_of(const struct axes *axes, double e)
     return BOTTOM - (BOTTOM - TOP) * (log10(e) - axes->y0) / (axes->y1 - axes->y0);
 }
 
-static void draw_axes(FILE *file, const struct axes *axes, const struct verify_study *study, size_t error)
+static void draw_axes(FILE *file, const struct axes *axes, const struct verify_errors *errors)
 {
     for (int decade = (int)axes->y0; decade <= (int)axes->y1; decade++) {
         double y = y_of(axes, pow(10, decade));
@@ -54,11 +54,11 @@ static void draw_axes(FILE *file, const struct axes *axes, const struct verify_s
                       "</text>\n",
                       LEFT - 8, y + 4, decade);
     }
-    for (size_t i = 0; i < study->level_count; i++) {
-        double x = x_of(axes, study->level[i].facts.spacing);
+    for (size_t i = 0; i < errors->count; i++) {
+        double x = x_of(axes, errors->h[i]);
         (void)fprintf(file, "<line class=\"grid\" x1=\"%.1f\" y1=\"%d\" x2=\"%.1f\" y2=\"%d\"/>", x, TOP, x, BOTTOM);
         (void)fprintf(file, "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">%.3g</text>\n", x, BOTTOM + 18,
-                      study->level[i].facts.spacing);
+                      errors->h[i]);
     }
     (void)fprintf(file, "<rect class=\"frame\" x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\"/>\n", LEFT, TOP,
                   RIGHT - LEFT, BOTTOM - TOP);
@@ -66,7 +66,7 @@ static void draw_axes(FILE *file, const struct axes *axes, const struct verify_s
                   BOTTOM + 42);
     (void)fprintf(file,
                   "<text transform=\"translate(18 %d) rotate(-90)\" text-anchor=\"middle\">error %s [%s]</text>\n",
-                  (TOP + BOTTOM) / 2, verify_error_name(error), verify_error_unit(error));
+                  (TOP + BOTTOM) / 2, errors->name, errors->unit);
 }
 
 /* Lines of order 1, 2, 3, ... through the finest measured point, each up to where it leaves the plot. */
@@ -103,20 +103,17 @@ static void draw_key(FILE *file, const char *class, int row, const char *text)
                   class, LEFT + 16, y, LEFT + 28, y + 4, text);
 }
 
-void verify_plot(FILE *file, const struct verify_study *study, size_t error)
+void verify_plot_errors(FILE *file, const struct verify_errors *errors)
 {
     struct curve measured = {.count = 0}, published = {.count = 0};
-    for (size_t i = 0; i < study->level_count; i++) {
-        add(&measured, study->level[i].facts.spacing, study->level[i].error[error]);
+    for (size_t i = 0; i < errors->count; i++) {
+        add(&measured, errors->h[i], errors->e[i]);
     }
-    for (size_t i = 0; i < study->scene->published_count; i++) {
-        int n = study->scene->published[i].n;
-        add(&published, study->scene->reference_length / n,
-            verify_published(study->scene, n, verify_error_name(error)));
+    for (size_t i = 0; i < errors->published_count; i++) {
+        add(&published, errors->published_h[i], errors->published_e[i]);
     }
     if (measured.count == 0) {
-        (void)fprintf(file, "<p>Nothing to plot for %s: no level has an error above zero.</p>\n",
-                      verify_error_name(error));
+        (void)fprintf(file, "<p>Nothing to plot for %s: no level has an error above zero.</p>\n", errors->name);
         return;
     }
     struct axes axes = {INFINITY, -INFINITY, INFINITY, -INFINITY};
@@ -127,8 +124,8 @@ void verify_plot(FILE *file, const struct verify_study *study, size_t error)
     axes.y0 = floor(axes.y0);
     axes.y1 = fmax(ceil(axes.y1), axes.y0 + 1);
     (void)fprintf(file, "<svg viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"convergence of %s\">\n", WIDTH, HEIGHT,
-                  verify_error_name(error));
-    draw_axes(file, &axes, study, error);
+                  errors->name);
+    draw_axes(file, &axes, errors);
     draw_orders(file, &axes, measured.h[measured.count - 1], measured.e[measured.count - 1]);
     if (published.count > 0) {
         draw_curve(file, &axes, &published, "published");
@@ -137,4 +134,20 @@ void verify_plot(FILE *file, const struct verify_study *study, size_t error)
     draw_curve(file, &axes, &measured, "measured");
     draw_key(file, "measured", 0, "measured");
     (void)fprintf(file, "</svg>\n");
+}
+
+void verify_plot(FILE *file, const struct verify_study *study, size_t error)
+{
+    struct verify_errors errors = {
+        .name = verify_error_name(error), .unit = verify_error_unit(error), .count = study->level_count};
+    for (size_t i = 0; i < study->level_count; i++) {
+        errors.h[i] = study->level[i].facts.spacing;
+        errors.e[i] = study->level[i].error[error];
+    }
+    for (size_t i = 0; i < study->scene->published_count; i++) {
+        int n = study->scene->published[i].n;
+        errors.published_h[errors.published_count] = study->scene->reference_length / n;
+        errors.published_e[errors.published_count++] = verify_published(study->scene, n, errors.name);
+    }
+    verify_plot_errors(file, &errors);
 }

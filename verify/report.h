@@ -25,8 +25,10 @@ void verify_terminal_indicators(FILE *file, const double value[VERIFY_INDICATORS
 /* JSON, in the one shape that --json always has; numbers that are not finite are null. Where no gate holds for the
  * configuration "pass" is null: nothing was judged. */
 void verify_json(FILE *file, const struct verify_study *study);
-/* A JSON string with its quotes; bytes that are no valid UTF-8 become U+FFFD. */
-void verify_json_string(FILE *file, const char *text);
+
+/* Builds a report in memory by `write` and writes it whole. */
+typedef bool verify_writer(FILE *file, const void *context, struct solver_error *error);
+bool verify_report_write(const char *path, verify_writer *write, const void *context, struct solver_error *error);
 
 /* A self-contained HTML page: tables, convergence plot, pictures. */
 bool verify_html(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count,
@@ -34,6 +36,14 @@ bool verify_html(FILE *file, const struct verify_study *study, const size_t *sho
 /* The convergence plot of one error as an SVG element: measured and published values over the spacing, both axes
  * logarithmic, with lines of whole orders for comparison. */
 void verify_plot(FILE *file, const struct verify_study *study, size_t error);
+/* The same of any errors: `count` of them over their spacings, and published ones where there are some. */
+struct verify_errors {
+    const char *name, *unit;
+    size_t count, published_count;
+    double h[SOLVER_LEVELS], e[SOLVER_LEVELS];
+    double published_h[SOLVER_ROWS], published_e[SOLVER_ROWS];
+};
+void verify_plot_errors(FILE *file, const struct verify_errors *errors);
 /* The displacement of a probe over time as an SVG element, computed over exact. */
 void verify_plot_trace(FILE *file, const struct verify_study *study, const struct verify_trace *trace);
 /* One component of a probe's displacement over time, at the finest level and in the configuration beside. */

@@ -1,64 +1,11 @@
 #include "verify/report.h"
+#include "verify/terminal.h"
 
 #include <math.h>
 #include <string.h>
 
 static const char *const evolved_name[] = {
     [SOLVER_PF] = "{p,F}", [SOLVER_PFJ] = "{p,F,J}", [SOLVER_PFHJ] = "{p,F,H,J}"};
-
-const char verify_no_oracle[] = "no oracle: nothing here is compared with an exact solution";
-
-/* "%.3e", or a dash where there is no number to show. */
-static const char *scientific(char text[32], double value)
-{
-    (void)snprintf(text, 32, isnan(value) ? "-" : "%.3e", value);
-    return text;
-}
-
-static const char *order(char text[32], double value)
-{
-    (void)snprintf(text, 32, isnan(value) ? "-" : "%.2f", value);
-    return text;
-}
-
-/* Characters of the column of what has this name. */
-static int width_of(const char *name)
-{
-    int length = (int)strlen(name);
-    return length > 10 ? length : 10;
-}
-
-static void print_truth(FILE *file, const struct verify_truth *truth)
-{
-    if (truth->none) {
-        (void)fprintf(file, "\n%s\n", verify_no_oracle);
-        return;
-    }
-    (void)fprintf(file, "\noracle     %s: %s\n           source: %s\n", truth->kind->name, truth->kind->summary,
-                  truth->kind->source);
-    for (size_t i = 0; i < truth->parameter_count; i++) {
-        const struct oracle_parameter *parameter = &truth->kind->parameter[i];
-        if (truth->told[i]) {
-            (void)fprintf(file, "           TOLD %s = %.10g %s in place of the scene's own value\n", parameter->name,
-                          truth->value[i], parameter->unit);
-        }
-    }
-    (void)fprintf(file, "\n  %-44s %10s    %s\n", "self-check of the oracle", "residual", "bound [-]");
-    for (size_t i = 0; i < truth->check_count; i++) {
-        const struct oracle_check *line = &truth->check[i];
-        (void)fprintf(file, "  %-44s %10.2e <= %-8.1e %s\n", line->law, line->residual, line->bound,
-                      oracle_law_holds(line) ? "holds" : "FAILS");
-    }
-    struct oracle_figure figure[ORACLE_FIGURES];
-    size_t figures = truth->kind->figures != NULL ? truth->kind->figures(truth->oracle, figure) : 0;
-    for (size_t i = 0; i < figures; i++) {
-        (void)fprintf(file, "%s  %-24s %16.10g %-6s %s\n", i == 0 ? "\n" : "", figure[i].name, figure[i].value,
-                      figure[i].unit, figure[i].help);
-    }
-    if (!truth->proven) {
-        (void)fprintf(file, "\nFAIL: the oracle does not prove itself, so nothing can be verified against it\n");
-    }
-}
 
 static void print_published_head(FILE *file, const struct solver_scene *scene)
 {
@@ -102,23 +49,23 @@ static void print_head(FILE *file, const struct verify_study *study, const size_
     (void)fprintf(file, "\n%5s %10s %9s %6s %8s %10s", "n", "h", "particles", "steps", "time", "ns per");
     for (size_t i = 0; i < shown_count; i++) {
         const char *name = verify_error_name(shown[i]);
-        (void)fprintf(file, " | %-*s", width_of(name), name);
+        (void)fprintf(file, " | %-*s", verify_width_of(name), name);
         if (verify_error_has_order(shown[i])) {
             (void)fprintf(file, " %5s %10s", "order", "published");
         }
     }
     for (size_t i = 0; i < indicator_columns(study); i++) {
         const char *name = verify_indicator_name(i);
-        (void)fprintf(file, " | %-*s", width_of(name), name);
+        (void)fprintf(file, " | %-*s", verify_width_of(name), name);
     }
     (void)fprintf(file, "\n%5s %10s %9s %6s %8s %10s", "", "[m]", "", "", "[s]", "part.-step");
     for (size_t i = 0; i < shown_count; i++) {
         const char *unit = verify_error_unit(shown[i]);
-        int width = width_of(verify_error_name(shown[i])) + (verify_error_has_order(shown[i]) ? 17 : 0);
+        int width = verify_width_of(verify_error_name(shown[i])) + (verify_error_has_order(shown[i]) ? 17 : 0);
         (void)fprintf(file, " | [%s]%*s", unit, width - 2 - (int)strlen(unit), "");
     }
     for (size_t i = 0; i < indicator_columns(study); i++) {
-        (void)fprintf(file, " | %-*s", width_of(verify_indicator_name(i)), "[-]");
+        (void)fprintf(file, " | %-*s", verify_width_of(verify_indicator_name(i)), "[-]");
     }
     (void)fprintf(file, "\n");
     (void)fflush(file);
@@ -134,7 +81,7 @@ void verify_terminal_begin(FILE *file, const struct verify_study *study, const s
     }
     (void)fprintf(file, ", support %.4g spacings, %s, CFL %.4g, material %s, t_end %.6g s\n", scene->support,
                   scene->integrator, scene->cfl, scene->material_model, scene->t_end);
-    print_truth(file, study->truth);
+    verify_print_truth(file, study->truth);
     if (!study->truth->proven) {
         return;
     }
@@ -150,14 +97,15 @@ void verify_terminal_level(FILE *file, const struct verify_study *study, const s
                   level->facts.steps, level->facts.seconds, level->ns_per_particle_step);
     for (size_t i = 0; i < shown_count; i++) {
         const char *name = verify_error_name(shown[i]);
-        (void)fprintf(file, " | %-*s", width_of(name), scientific(text, level->error[shown[i]]));
+        (void)fprintf(file, " | %-*s", verify_width_of(name), verify_scientific(text, level->error[shown[i]]));
         if (verify_error_has_order(shown[i])) {
-            (void)fprintf(file, " %5s", order(text, level->rate[shown[i]]));
-            (void)fprintf(file, " %10s", scientific(text, verify_published(study->scene, level->n, name)));
+            (void)fprintf(file, " %5s", verify_order_text(text, level->rate[shown[i]]));
+            (void)fprintf(file, " %10s", verify_scientific(text, verify_published(study->scene, level->n, name)));
         }
     }
     for (size_t i = 0; i < indicator_columns(study); i++) {
-        (void)fprintf(file, " | %-*s", width_of(verify_indicator_name(i)), scientific(text, level->indicator[i]));
+        (void)fprintf(file, " | %-*s", verify_width_of(verify_indicator_name(i)),
+                      verify_scientific(text, level->indicator[i]));
     }
     (void)fprintf(file, "\n");
     (void)fflush(file);
@@ -180,7 +128,7 @@ static void print_orders(FILE *file, const struct verify_study *study, const siz
         if (!verify_error_has_order(shown[i])) {
             continue;
         }
-        (void)fprintf(file, "%s %s %s", i == 0 ? "" : ",", name, order(text, fine->rate[shown[i]]));
+        (void)fprintf(file, "%s %s %s", i == 0 ? "" : ",", name, verify_order_text(text, fine->rate[shown[i]]));
         double published = verify_order(verify_published(study->scene, coarse->n, name), 1.0 / coarse->n,
                                         verify_published(study->scene, fine->n, name), 1.0 / fine->n);
         if (!isnan(published)) {
@@ -206,7 +154,7 @@ static void print_snapshots(FILE *file, const struct verify_study *study, const 
         (void)fprintf(file, "\n  %12.6g", level->snapshot[i].time);
         for (size_t j = 0; j < count; j++) {
             char text[32];
-            (void)fprintf(file, " %12s", scientific(text, level->snapshot[i].error[of_state[j]]));
+            (void)fprintf(file, " %12s", verify_scientific(text, level->snapshot[i].error[of_state[j]]));
         }
     }
     (void)fprintf(file, "\n");
@@ -232,7 +180,8 @@ static void print_figures(FILE *file, const struct verify_study *study)
                           "unit", "error [-]", "order");
         }
         (void)fprintf(file, "  %-24s %16.9g %16.9g %-8s %10s %6s\n", study->scene->figure[i].name, figure->measured,
-                      figure->exact, figure->unit, scientific(error, figure->error), order(rate, figure->rate));
+                      figure->exact, figure->unit, verify_scientific(error, figure->error),
+                      verify_order_text(rate, figure->rate));
     }
 }
 
@@ -269,12 +218,7 @@ static void print_gates(FILE *file, const struct verify_study *study)
         (void)fprintf(file, "\nThe scene's bounds are meant for n = %d; the finest level here is n = %d.\n",
                       scene->levels[scene->level_count - 1], n);
     }
-    (void)fprintf(file, "\n  %-24s %12s    %-12s %s\n", "gate", "measured", "bound", "unit");
-    for (size_t i = 0; i < study->gates.count; i++) {
-        const struct verify_gate *gate = &study->gates.gate[i];
-        (void)fprintf(file, "  %-24s %12.4g %s %-12.4g [%s]  %s%s\n", gate->name, gate->value, gate->op, gate->bound,
-                      gate->unit, gate->pass ? "PASS" : "FAIL", isfinite(gate->value) ? "" : " (nothing was measured)");
-    }
+    verify_print_gates(file, &study->gates);
     (void)fprintf(file, "%s\n", verify_verdict(study));
 }
 
@@ -317,7 +261,7 @@ void verify_terminal_indicators(FILE *file, const double value[VERIFY_INDICATORS
     (void)fprintf(file, "indicators\n");
     for (size_t i = 0; i < VERIFY_INDICATORS; i++) {
         char text[32];
-        (void)fprintf(file, "  %-18s %10s  %s\n", verify_indicator_name(i), scientific(text, value[i]),
+        (void)fprintf(file, "  %-18s %10s  %s\n", verify_indicator_name(i), verify_scientific(text, value[i]),
                       verify_indicator_meaning(i));
     }
 }

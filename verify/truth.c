@@ -72,41 +72,65 @@ static bool means(const char *key, const char *parameter)
     return strcmp(key, parameter) == 0 || (dot != NULL && strcmp(key, dot + 1) == 0);
 }
 
-static bool refuse_unknown(const struct solver_scene *scene, const struct oracle_kind *kind, struct solver_error *error)
+/* What gives the oracle its parameters, for messages: a scene by its key oracle, or a command line by an option. */
+struct teller {
+    const char *where, *key; /* "swinging-cube.lua", "oracle."; "--param", "" */
+    const struct solver_named *told;
+    size_t count;
+};
+
+static bool refuse_unknown(const struct teller *teller, const struct oracle_kind *kind, struct solver_error *error)
 {
-    for (size_t i = 0; i < scene->oracle_told_count; i++) {
+    for (size_t i = 0; i < teller->count; i++) {
         const char *names[ORACLE_PARAMETERS];
         size_t count = 0;
         bool known = false;
         for (const struct oracle_parameter *p = kind->parameter; p->name != NULL && count < ORACLE_PARAMETERS; p++) {
             names[count++] = p->name;
-            known = known || means(scene->oracle_told[i].name, p->name);
+            known = known || means(teller->told[i].name, p->name);
         }
         if (!known) {
-            const char *meant = verify_suggest(scene->oracle_told[i].name, names, count);
-            return solver_fail(error, SOLVER_BAD_INPUT, "%s: oracle.%s: the oracle \"%s\" has no such parameter%s%s%s",
-                               scene->path, scene->oracle_told[i].name, kind->name,
-                               meant != NULL ? "; did you mean oracle." : "", meant != NULL ? meant : "",
+            const char *meant = verify_suggest(teller->told[i].name, names, count);
+            return solver_fail(error, SOLVER_BAD_INPUT, "%s: %s%s: the oracle \"%s\" has no such parameter%s%s%s%s",
+                               teller->where, teller->key, teller->told[i].name, kind->name,
+                               meant != NULL ? "; did you mean " : "", meant != NULL ? teller->key : "",
+                               meant != NULL ? meant : "",
                                meant != NULL ? "?" : "; assay list oracles shows what it has");
         }
     }
     return true;
 }
 
-static bool parameters(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error)
+/* What was told of a parameter, the last word counting; false if nothing was. */
+static bool is_told(const struct teller *teller, const struct oracle_parameter *parameter, double *value)
+{
+    bool told = false;
+    for (size_t i = 0; i < teller->count; i++) {
+        if (means(teller->told[i].name, parameter->name)) {
+            *value = teller->told[i].value;
+            told = true;
+        }
+    }
+    return told;
+}
+
+static bool few_enough(const struct oracle_kind *kind, struct solver_error *error)
+{
+    size_t count = 0;
+    while (kind->parameter[count].name != NULL) {
+        count++;
+    }
+    return count <= ORACLE_PARAMETERS ||
+           solver_fail(error, SOLVER_BAD_INPUT, "the oracle \"%s\" has more than %d parameters", kind->name,
+                       (int)ORACLE_PARAMETERS);
+}
+
+static bool parameters(const struct solver_scene *scene, const struct teller *teller, struct verify_truth *truth,
+                       struct solver_error *error)
 {
     for (const struct oracle_parameter *p = truth->kind->parameter; p->name != NULL; p++) {
         size_t i = truth->parameter_count++;
-        if (i == ORACLE_PARAMETERS) {
-            return solver_fail(error, SOLVER_BAD_INPUT, "the oracle \"%s\" has more than %d parameters",
-                               truth->kind->name, (int)ORACLE_PARAMETERS);
-        }
-        for (size_t j = 0; j < scene->oracle_told_count; j++) {
-            if (means(scene->oracle_told[j].name, p->name)) {
-                truth->value[i] = scene->oracle_told[j].value;
-                truth->told[i] = true;
-            }
-        }
+        truth->told[i] = is_told(teller, p, &truth->value[i]);
         if (!truth->told[i] && !solver_scene_number(scene, p->name, &truth->value[i])) {
             return solver_fail(error, SOLVER_BAD_INPUT,
                                "%s: the oracle \"%s\" needs %s (%s) [%s]: give it under parameters or by oracle.%s",
@@ -116,19 +140,79 @@ static bool parameters(const struct solver_scene *scene, struct verify_truth *tr
     return true;
 }
 
-bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error)
+/* Creates the oracle from the values and has it prove itself. */
+static bool create(const char *where, struct verify_truth *truth, struct solver_error *error)
 {
-    *truth = (struct verify_truth){.kind = NULL};
-    if (!find_kind(scene, &truth->kind, error) || !refuse_unknown(scene, truth->kind, error) ||
-        !parameters(scene, truth, error)) {
-        return false;
-    }
     char why[ORACLE_WHY] = "";
     if (!oracle_create(truth->kind, truth->value, &truth->oracle, why)) {
-        return solver_fail(error, SOLVER_BAD_INPUT, "%s: oracle \"%s\": %s", scene->path, truth->kind->name, why);
+        return solver_fail(error, SOLVER_BAD_INPUT, "%s: oracle \"%s\": %s", where, truth->kind->name, why);
     }
     truth->proven = oracle_self_check(truth->kind, truth->oracle, truth->check, &truth->check_count);
     return true;
+}
+
+bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error)
+{
+    struct teller teller = {
+        .where = scene->path, .key = "oracle.", .told = scene->oracle_told, .count = scene->oracle_told_count};
+    *truth = (struct verify_truth){.kind = NULL};
+    if (!find_kind(scene, &truth->kind, error) || !few_enough(truth->kind, error) ||
+        !refuse_unknown(&teller, truth->kind, error) || !parameters(scene, &teller, truth, error)) {
+        return false;
+    }
+    return create(scene->path, truth, error);
+}
+
+/* All that is missing, at once. */
+static bool refuse_missing(const struct oracle_kind *kind, const bool *given, struct solver_error *error)
+{
+    char missing[768] = "";
+    size_t used = 0;
+    for (size_t i = 0; kind->parameter[i].name != NULL && used < sizeof missing; i++) {
+        const struct oracle_parameter *p = &kind->parameter[i];
+        if (!given[i]) {
+            int added = snprintf(missing + used, sizeof missing - used, "\n  --param %s=%g   [%s] %s", p->name,
+                                 p->typical, p->unit, p->help);
+            used += added > 0 ? (size_t)added : 0;
+        }
+    }
+    return solver_fail(error, SOLVER_BAD_INPUT,
+                       "the oracle \"%s\" needs more parameters; give them, or --typical for these values:%s",
+                       kind->name, missing);
+}
+
+static bool find_named(const char *name, const struct oracle_kind **kind, struct solver_error *error)
+{
+    const char *names[256];
+    size_t count = 0;
+    *kind = name != NULL ? verify_kind_find(name) : NULL;
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL && count < sizeof names / sizeof *names; k++) {
+        names[count++] = (*k)->name;
+    }
+    const char *meant = *kind == NULL && name != NULL ? verify_suggest(name, names, count) : NULL;
+    return *kind != NULL ||
+           solver_fail(error, SOLVER_BAD_INPUT, "there is no oracle \"%s\"%s%s%s", name != NULL ? name : "",
+                       meant != NULL ? "; did you mean " : "", meant != NULL ? meant : "",
+                       meant != NULL ? "?" : "; assay list oracles shows those there are");
+}
+
+bool verify_truth_tell(const char *name, const struct solver_named *told, size_t count, bool typical,
+                       struct verify_truth *truth, struct solver_error *error)
+{
+    struct teller teller = {.where = "--param", .key = "", .told = told, .count = count};
+    bool given[ORACLE_PARAMETERS] = {false}, all = true;
+    *truth = (struct verify_truth){.kind = NULL};
+    if (!find_named(name, &truth->kind, error) || !few_enough(truth->kind, error) ||
+        !refuse_unknown(&teller, truth->kind, error)) {
+        return false;
+    }
+    for (const struct oracle_parameter *p = truth->kind->parameter; p->name != NULL; p++) {
+        size_t i = truth->parameter_count++;
+        truth->value[i] = p->typical;
+        given[i] = is_told(&teller, p, &truth->value[i]) || typical;
+        all = all && given[i];
+    }
+    return (all || refuse_missing(truth->kind, given, error)) && create("--param", truth, error);
 }
 
 bool verify_truth_open(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error)

@@ -25,6 +25,10 @@ struct verify_truth {
 bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error);
 /* The same for a study, which a scene without an oracle may have too: that of a run whose gates are on indicators. */
 bool verify_truth_open(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error);
+/* The oracle called `name`, told its parameters without a scene: all of them, or with `typical` those that differ from
+ * its typical values. Errors name what is missing or unknown. */
+bool verify_truth_tell(const char *name, const struct solver_named *told, size_t count, bool typical,
+                       struct verify_truth *truth, struct solver_error *error);
 void verify_truth_free(struct verify_truth *truth);
 
 #endif

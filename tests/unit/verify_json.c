@@ -1,5 +1,6 @@
 /* The JSON report: escaping, numbers that are none, and the verdict. */
 #include "tests/unit/unit.h"
+#include "verify/json.h"
 #include "verify/report.h"
 
 #include <math.h>

@@ -14,7 +14,7 @@ material = { model = "linear-elastic", E = 1, nu = 0.3, rho = 1 } -- Pa, -, kg/m
 
 scheme = "upwind"
 evolved, stencil, support, integrator, cfl = "pF", "sbp4", 2, "rk4", 0.4
-t_end = 0.2 * period
+t_end = 0.4 * period
 
 oracle = { name = "manufactured-waves" }
 initial = { from = "oracle" }

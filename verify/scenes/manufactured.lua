@@ -17,7 +17,7 @@ material = { model = "neo-hookean", E = 1, nu = 0.3, rho = 1 } -- Pa, -, kg/m^3
 
 scheme = "upwind"
 evolved, stencil, support, integrator, cfl = "pFHJ", "sbp4", 2, "rk4", 0.4
-t_end = 0.2 * period
+t_end = 0.4 * period
 
 oracle = { name = "manufactured-stretch" }
 initial = { from = "oracle" }

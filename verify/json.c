@@ -1,0 +1,102 @@
+#include "verify/json.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/* Bytes of the valid UTF-8 sequence at `c`; 0 if there is none (overlong, surrogate, cut short, out of range). */
+static size_t sequence(const unsigned char *c)
+{
+    if (c[0] < 0x80) {
+        return 1;
+    }
+    size_t length = c[0] >= 0xF0 ? 4 : c[0] >= 0xE0 ? 3 : 2;
+    if (c[0] < 0xC2 || c[0] > 0xF4) {
+        return 0;
+    }
+    for (size_t i = 1; i < length; i++) {
+        if ((c[i] & 0xC0) != 0x80) {
+            return 0;
+        }
+    }
+    bool wrong = (c[0] == 0xE0 && c[1] < 0xA0) || (c[0] == 0xED && c[1] > 0x9F) || (c[0] == 0xF0 && c[1] < 0x90) ||
+                 (c[0] == 0xF4 && c[1] > 0x8F);
+    return wrong ? 0 : length;
+}
+
+void verify_json_string(FILE *file, const char *text)
+{
+    (void)fputc('"', file);
+    for (const unsigned char *c = (const unsigned char *)text; *c != '\0';) {
+        size_t length = sequence(c);
+        if (*c == '"' || *c == '\\') {
+            (void)fprintf(file, "\\%c", *c);
+        } else if (*c < 0x20 || *c == 0x7F) {
+            (void)fprintf(file, "\\u%04x", *c);
+        } else if (length == 0) {
+            (void)fputs("\\ufffd", file);
+        } else {
+            (void)fwrite(c, 1, length, file);
+        }
+        c += length == 0 ? 1 : length;
+    }
+    (void)fputc('"', file);
+}
+
+void verify_json_number(FILE *file, double value)
+{
+    if (isfinite(value)) {
+        (void)fprintf(file, "%.17g", value);
+    } else {
+        (void)fputs("null", file);
+    }
+}
+
+void verify_json_text_member(FILE *file, const char *key, const char *text)
+{
+    (void)fprintf(file, "\"%s\": ", key);
+    verify_json_string(file, text);
+}
+
+void verify_json_number_member(FILE *file, const char *key, double value)
+{
+    (void)fprintf(file, "\"%s\": ", key);
+    verify_json_number(file, value);
+}
+
+static void gate_object(FILE *file, const char *name, double value, double bound, const char *op, bool pass)
+{
+    (void)fputc('{', file);
+    verify_json_text_member(file, "name", name);
+    (void)fputs(", ", file);
+    verify_json_number_member(file, "value", value);
+    (void)fputs(", ", file);
+    verify_json_number_member(file, "bound", bound);
+    (void)fprintf(file, ", \"op\": \"%s\", \"pass\": %s}", op, pass ? "true" : "false");
+}
+
+/* Lines of the oracle's self-check that fail stand among the gates: they decide too. */
+void verify_json_verdict(FILE *file, const struct verify_truth *truth, const struct verify_gates *gates)
+{
+    const char *between = "\n    ";
+    (void)fputs(",\n  \"gates\": [", file);
+    for (size_t i = 0; i < truth->check_count; i++) {
+        const struct oracle_check *line = &truth->check[i];
+        if (!oracle_law_holds(line)) {
+            char name[256];
+            (void)snprintf(name, sizeof name, "oracle self-check: %s", line->law);
+            (void)fputs(between, file);
+            gate_object(file, name, line->residual, line->bound, "<=", false);
+            between = ",\n    ";
+        }
+    }
+    for (size_t i = 0; i < gates->count; i++) {
+        const struct verify_gate *gate = &gates->gate[i];
+        (void)fputs(between, file);
+        gate_object(file, gate->name, gate->value, gate->bound, gate->op, gate->pass);
+        between = ",\n    ";
+    }
+    const char *verdict = !truth->proven || (gates->count > 0 && !gates->pass) ? "false"
+                          : gates->count > 0                                   ? "true"
+                                                                               : "null";
+    (void)fprintf(file, "],\n  \"pass\": %s\n}\n", verdict);
+}
