@@ -106,8 +106,8 @@ static bool solve(const struct oracle_beam *beam, const struct theory *theory, i
                        mode, beam->length, beam->height);
         return false;
     }
-    gsl_function function = {.function = characteristic, .params = (void *)theory};
-    if (!root_between(&function, lower, upper, &c)) {
+    struct theory copy = *theory;
+    if (!root_between(characteristic, &copy, lower, upper, &c)) {
         (void)snprintf(why, ORACLE_WHY, "mode %d: no root of the characteristic equation between %g and %g", mode,
                        lower, upper);
         return false;

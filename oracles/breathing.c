@@ -82,8 +82,7 @@ static bool find_root(struct surface *surface, int mode, double *root)
 {
     double shift = (surface->dim - 2) / 4.0, upper = (mode + shift) * PI;
     double lower = mode == 1 ? sqrt(surface->e) : (mode - 1 + shift) * PI;
-    gsl_function function = {.function = traction, .params = surface};
-    return root_between(&function, lower, upper, root);
+    return root_between(traction, surface, lower, upper, root);
 }
 
 /* The formulas hold beyond the surface as well. */

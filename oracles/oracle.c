@@ -14,7 +14,8 @@
     ENTRY(oracle_cantilever_plane_stress)                                                                              \
     ENTRY(oracle_rod_impact)                                                                                           \
     ENTRY(oracle_swinging_cube)                                                                                        \
-    ENTRY(oracle_thin_plate)
+    ENTRY(oracle_thin_plate)                                                                                           \
+    ENTRY(oracle_tube_oscillation)
 
 #define DECLARE(kind) extern const struct oracle_kind kind;
 #define ADDRESS(kind) &kind,

@@ -1,11 +1,11 @@
-/* A root of a function between two places where it has opposite signs. */
+/* Roots of functions, by GSL. */
 #ifndef ORACLES_ROOT_H
 #define ORACLES_ROOT_H
 
-#include <gsl/gsl_math.h>
 #include <stdbool.h>
 
-/* By Brent's method, until its interval no longer shrinks. False if there is no memory or the signs are alike. */
-bool root_between(gsl_function *function, double lower, double upper, double *root);
+/* Brent's method until its interval no longer shrinks. The function must be a number on the whole interval. False if it
+ * has one sign at both ends, or there is no memory or no convergence. */
+bool root_between(double (*function)(double x, void *with), void *with, double lower, double upper, double *root);
 
 #endif

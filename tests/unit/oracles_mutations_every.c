@@ -44,6 +44,7 @@ static const struct {
     {"kinetic energy", NULL, kinetic_energy},
     {"strain energy", NULL, strain_energy},
     {"both energies", NULL, both_energies},
+    {"share of the energies", NULL, exchanged_energy},
 };
 
 static void begin(const struct oracle_kind *kind, double value[ORACLE_PARAMETERS])
@@ -65,16 +66,9 @@ static void small_changes_are_caught(void)
         begin(*k, value);
         CU_ASSERT_FALSE(caught(&loosest)); /* going through the copy is no fault */
         for (size_t i = 0; i < sizeof mutations / sizeof *mutations; i++) {
-            double smallest = INFINITY;
             now.state = mutations[i].state;
             now.energy = mutations[i].energy;
-            for (int exponent = -4; exponent >= -14; exponent -= 2) {
-                now.d = pow(10, exponent);
-                if (!caught(NULL)) {
-                    break;
-                }
-                smallest = now.d;
-            }
+            double smallest = smallest_caught(-4, -14, 2);
             printf("    %-16s %-16s caught down to %.0e\n", (*k)->name, mutations[i].name, smallest);
             CU_ASSERT_TRUE(smallest <= 1e3 * loosest);
         }
