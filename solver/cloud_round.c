@@ -120,8 +120,8 @@ static double corner(double x, double y)
  * axes that lie in the face. */
 static double share_on_face(const struct bent *bent, const int32_t index[3], int32_t shell, int face_axis)
 {
-    double low[2];
-    double high[2];
+    double low[2] = {0};
+    double high[2] = {0};
     int found = 0;
     for (int axis = 0; axis < bent->curved; axis++) {
         if (axis != face_axis) {
@@ -245,7 +245,7 @@ bool solver_cloud_round(const struct solver_shape *shape, double spacing, struct
                         struct solver_error *error)
 {
     struct solver_cloud *cloud = NULL;
-    struct cloud_size size;
+    struct cloud_size size = {0};
     struct bent bent;
     *out = NULL;
     if (!lay_out(shape, spacing, &bent, &size, error) ||
