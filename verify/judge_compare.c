@@ -36,11 +36,11 @@ static bool factor_of(struct comparison *c, const char *what, bool has_unit, con
         return true;
     }
     if (!has_unit) {
-        return verify_sample_refuse(c->sample, c->error, "%s has no unit; expected [%s], or this with a prefix", what,
-                                    wanted);
+        return verify_sample_refuse(c->sample, c->error,
+                                    "the unit of %s is missing; expected [%s], or this with a prefix", what, wanted);
     }
     return verify_unit_factor(unit, wanted, factor) ||
-           verify_sample_refuse(c->sample, c->error, "%s is in [%s]; expected [%s]%s", what, unit, wanted,
+           verify_sample_refuse(c->sample, c->error, "the unit of %s is [%s]; expected [%s]%s", what, unit, wanted,
                                 none ? "" : ", or this with a prefix such as m, k or M before it");
 }
 
