@@ -50,7 +50,7 @@ struct verify_options {
     const char *override[VERIFY_OVERRIDES]; /* "KEY=value" */
     size_t level_count;                     /* 0: those of the scene */
     int level[SOLVER_LEVELS];
-    const char *json, *out, *picture, *dir; /* NULL where not given */
+    const char *json, *out, *picture, *dir;                        /* NULL where not given */
     const char *oracle, *times, *spacings, *points, *grid, *table; /* NULL where not given */
     struct verify_list param, norm, gate, order;
     bool typical; /* the oracle's typical values in place of what is not given */
