@@ -71,7 +71,7 @@ bool oracle_create(const struct oracle_kind *kind, const double *value, struct o
             return false;
         }
     }
-    return kind->create(value, oracle, why);
+    return kind->create != NULL ? kind->create(value, oracle, why) : kind->create_as(kind, value, oracle, why);
 }
 
 bool oracle_law_holds(const struct oracle_check *line)

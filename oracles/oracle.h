@@ -73,6 +73,10 @@ struct oracle_kind {
     const struct oracle_extra *extra;         /* ends with a NULL name; NULL: none */
     /* Values in the order of `parameter`, already within their intervals. */
     bool (*create)(const double *value, struct oracle **oracle, char why[ORACLE_WHY]);
+    /* In place of `create`, for kinds that share one; `about` is theirs. */
+    bool (*create_as)(const struct oracle_kind *kind, const double *value, struct oracle **oracle,
+                      char why[ORACLE_WHY]);
+    const void *about;
     void (*destroy)(struct oracle *oracle);
     void (*state)(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state);
     /* The extra scalars at X and t, in the order of `extra`; NULL if there are none. */
@@ -102,6 +106,9 @@ bool oracle_create(const struct oracle_kind *kind, const double *value, struct o
 
 /* det F of a state. */
 double oracle_jacobian(const struct oracle_state *state);
+/* The cofactor of F, row by row, and its determinant, which is returned: without finite strain the linearised ones, I +
+ * tr(F - I) I - (F - I)^T and 1 + tr(F - I). */
+double oracle_measures(bool finite_strain, const double F[9], double H[9]);
 /* The Cauchy stress [Pa] of a state, row by row: P F^T / det F, or P where the kind is one of linear elasticity, in
  * which strains are too small to tell the two apart. */
 void oracle_cauchy(const struct oracle_kind *kind, const struct oracle_state *state, double sigma[9]);

@@ -16,7 +16,12 @@ enum { TILE = 16 }; /* pixels along a side */
  * and one pixel in a tile (0.004). What must fail: a colour range wrong by 1 % gives the least worst tile, 0.17, and a
  * missing quad the least fraction, 3.3e-4, with 0.24 in its tile. Each limit is far from both. */
 static const float visible = 4; /* a colour difference that counts; just noticeable is 2.3, neighbouring bands 16 */
-static const double fraction_limit = 5e-4, tile_limit = 0.02;
+const struct render_tolerance render_tolerance_default = {.fraction = 5e-4, .worst_tile = 0.02};
+
+bool render_within(const struct render_difference *difference, struct render_tolerance tolerance)
+{
+    return difference->fraction <= tolerance.fraction && difference->worst_tile <= tolerance.worst_tile;
+}
 
 /* The body's part of a picture in CIELAB. */
 struct patch {
@@ -92,7 +97,7 @@ static void judge(const struct patch *patch, const float *difference, const int 
     result->mean_delta_e = sum / (double)pixels;
     result->fraction = (double)all / (double)pixels;
     result->worst_tile = (double)worst / (TILE * TILE); /* of a whole tile, also where the rim cuts one off */
-    result->same = result->fraction <= fraction_limit && result->worst_tile <= tile_limit;
+    result->same = render_within(result, render_tolerance_default);
 }
 
 /* The fresh picture in faint grey, visible differences in red on it, and a frame around the worst tile. */

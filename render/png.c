@@ -157,17 +157,26 @@ static bool read_guarded(FILE *file, struct render_image **image, struct complai
     return true;
 }
 
+static FILE *open_picture(const char *path, char why[RENDER_WHY])
+{
+    FILE *file = fopen(path, "rb");
+    struct stat status;
+    if (!file) {
+        render_fail(why, "%s: cannot be read: %s", path, strerror(errno));
+    } else if (fstat(fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) {
+        render_fail(why, "%s: not a regular file; expected a PNG picture", path);
+        (void)fclose(file);
+        file = NULL;
+    }
+    return file;
+}
+
 bool render_png_read(const char *path, struct render_image **image, char why[RENDER_WHY])
 {
     *image = NULL;
-    FILE *file = fopen(path, "rb");
+    FILE *file = open_picture(path, why);
     if (!file)
-        return render_fail(why, "%s: cannot be read: %s", path, strerror(errno));
-    struct stat status;
-    if (fstat(fileno(file), &status) != 0 || !S_ISREG(status.st_mode)) {
-        (void)fclose(file);
-        return render_fail(why, "%s: not a regular file; expected a PNG picture", path);
-    }
+        return false;
     struct complaint complaint = {""};
     const bool fine = read_guarded(file, image, &complaint);
     (void)fclose(file);
@@ -176,4 +185,41 @@ bool render_png_read(const char *path, struct render_image **image, char why[REN
     render_image_free(*image);
     *image = NULL;
     return render_fail(why, "%s: not a whole PNG picture of this program: %s", path, complaint.text);
+}
+
+/* libpng's own conversion; it frees what it holds on every failure. */
+static bool read_foreign(FILE *file, png_imagep png, struct render_image **image)
+{
+    if (!png_image_begin_read_from_stdio(png, file))
+        return false;
+    if (png->width <= RENDER_MOST && png->height <= RENDER_MOST)
+        *image = render_image_create((int)png->width, (int)png->height);
+    if (!*image) {
+        png_image_free(png);
+        snprintf(png->message, sizeof png->message, "expected at most %d pixels a side, and memory for them",
+                 RENDER_MOST);
+        return false;
+    }
+    (*image)->body[2] = (*image)->width;
+    (*image)->body[3] = (*image)->height;
+    const png_color white = {255, 255, 255};
+    png->format = PNG_FORMAT_RGB;
+    return png_image_finish_read(png, &white, (*image)->rgb, 0, NULL) && PNG_IMAGE_FAILED(*png) == 0;
+}
+
+bool render_png_read_any(const char *path, struct render_image **image, char why[RENDER_WHY])
+{
+    if (render_png_read(path, image, why))
+        return true;
+    FILE *file = open_picture(path, why);
+    if (!file)
+        return false;
+    png_image png = {.version = PNG_IMAGE_VERSION};
+    const bool fine = read_foreign(file, &png, image);
+    (void)fclose(file);
+    if (fine)
+        return true;
+    render_image_free(*image);
+    *image = NULL;
+    return render_fail(why, "%s: not a whole PNG picture: %s", path, png.message);
 }

@@ -47,7 +47,11 @@ bool render_draw(const struct render_surface *surface, const struct render_view 
 void render_image_free(struct render_image *image);
 /* Whole or absent: written beside, flushed, renamed. */
 bool render_png_write(const char *path, const struct render_image *image, char why[RENDER_WHY]);
+/* A picture of this program. */
 bool render_png_read(const char *path, struct render_image **image, char why[RENDER_WHY]);
+/* Any PNG of at most 4096 pixels a side, as 8 bits each of red, green and blue, on white where it is transparent; of a
+ * picture that is not of this program all is the body's rectangle. */
+bool render_png_read_any(const char *path, struct render_image **image, char why[RENDER_WHY]);
 
 /* Difference of two pictures within the body rectangle, in CIELAB. */
 struct render_difference {
@@ -55,11 +59,18 @@ struct render_difference {
     double worst_tile; /* the same share within the worst tile */
     int tile[2];       /* pixel position of the worst tile */
     double mean_delta_e;
-    bool same;                    /* both shares within their limits */
+    bool same;                    /* within render_tolerance_default */
     struct render_image *picture; /* the difference as a picture, same size; NULL if not asked for */
 };
 /* Pictures of different size or body rectangle cannot be compared: false. */
 bool render_compare(const struct render_image *stored, const struct render_image *fresh, bool want_picture,
                     struct render_difference *difference, char why[RENDER_WHY]);
+
+/* The shares of pixels, in all and within the worst tile, that may differ visibly in pictures that show the same. */
+struct render_tolerance {
+    double fraction, worst_tile;
+};
+extern const struct render_tolerance render_tolerance_default;
+bool render_within(const struct render_difference *difference, struct render_tolerance tolerance);
 
 #endif

@@ -12,6 +12,7 @@ static unsigned constrained_axes(enum solver_face_kind kind, unsigned normal, un
     unsigned all = (1U << dim) - 1U;
     switch (kind) {
     case SOLVER_SYMMETRIC:
+    case SOLVER_ROLLER:
         return 1U << normal;
     case SOLVER_SKEW:
         return all & ~(1U << normal);
@@ -23,6 +24,21 @@ static unsigned constrained_axes(enum solver_face_kind kind, unsigned normal, un
         break;
     }
     return 0;
+}
+
+static bool is_moved(enum solver_face_kind kind)
+{
+    return kind == SOLVER_MOTION || kind == SOLVER_ROLLER;
+}
+
+/* The formula of the traction that a face prescribes; SOLVER_FORMULAS if it prescribes none. */
+static enum solver_formula traction_of(const struct solver_scene *scene, unsigned face)
+{
+    enum solver_formula shear = (enum solver_formula)(SOLVER_SHEAR_X0 + (int)face);
+    if (scene->face[face] == SOLVER_TRACTION) {
+        return (enum solver_formula)(SOLVER_FACE_X0 + (int)face);
+    }
+    return scene->face[face] == SOLVER_ROLLER && solver_scene_has(scene, shear) ? shear : SOLVER_FORMULAS;
 }
 
 /* A mirror image in one face moves the other way, an image in two as the particle itself. */
@@ -37,49 +53,80 @@ static void set_image(struct solver_constraint *constraint, const struct solver_
     }
 }
 
+/* Adds what one face does to a particle on it, or in the wall beyond it. */
+static void add_face(const struct solver_scene *scene, unsigned face, unsigned dim,
+                     struct solver_constraint *constraint)
+{
+    enum solver_face_kind kind = scene->face[face];
+    unsigned axes = constrained_axes(kind, face / 2, dim);
+    for (unsigned i = 0; i < dim; i++) {
+        struct solver_held *axis = &constraint->axis[i];
+        if ((axes >> i & 1U) == 0) {
+            continue;
+        }
+        axis->held = true;
+        axis->after = axis->after || !is_moved(kind);
+        if (is_moved(kind) && axis->motion < 0) { /* the first of several leads */
+            axis->motion = (int)face;
+            axis->until = scene->face_until[face];
+        }
+    }
+}
+
+/* The constraint of particle a; false if it has none. A moved face leads all axes, where it meets rollers and faces
+ * that hold along theirs; where a clamped face meets it, that holds. */
+static bool constrain_by_faces(const struct solver_scene *scene, const struct solver_cloud *cloud, size_t a,
+                               struct solver_constraint *constraint)
+{
+    unsigned dim = (unsigned)cloud->dim;
+    uint32_t bits = cloud->tags[a] >> SOLVER_ON_FACE | cloud->tags[a] >> SOLVER_BEYOND_FACE;
+    bool clamped = false;
+    bool any = false;
+    for (unsigned i = 0; i < dim; i++) {
+        constraint->axis[i] = (struct solver_held){.motion = -1, .until = INFINITY};
+    }
+    for (int rollers = 0; rollers < 2; rollers++) {
+        for (unsigned face = 0; face < 2 * dim; face++) {
+            if ((bits >> face & 1U) != 0 && (scene->face[face] == SOLVER_ROLLER) == (rollers == 1)) {
+                add_face(scene, face, dim, constraint);
+                clamped = clamped || scene->face[face] == SOLVER_CLAMPED;
+            }
+        }
+    }
+    for (unsigned i = 0; i < dim; i++) {
+        struct solver_held *axis = &constraint->axis[i];
+        axis->motion = clamped ? -1 : axis->motion;
+        any = any || axis->held;
+    }
+    return any;
+}
+
 bool solver_faces_create(const struct solver_body *body, const struct solver_geometry *geometry,
                          struct solver_faces *faces, struct solver_error *error)
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_cloud *cloud = body->cloud;
     unsigned dim = (unsigned)cloud->dim;
-    *faces = (struct solver_faces){.dim = cloud->dim, .body_force = solver_scene_has(scene, SOLVER_BODY_FORCE)};
+    *faces = (struct solver_faces){.dim = cloud->dim, .force_time = NAN};
     size_t most = geometry->face_point_count + cloud->wall_count;
     if (!solver_alloc((void **)&faces->constraint, most, sizeof *faces->constraint, "constraints", error) ||
-        !solver_alloc((void **)&faces->load, geometry->face_point_count, sizeof *faces->load, "loads", error)) {
+        !solver_alloc((void **)&faces->load, geometry->face_point_count, sizeof *faces->load, "loads", error) ||
+        (solver_scene_has(scene, SOLVER_BODY_FORCE) &&
+         !solver_alloc((void **)&faces->force, cloud->count * dim, sizeof *faces->force, "body force", error))) {
         return false;
     }
     for (size_t a = 0; a < cloud->count; a++) {
-        unsigned axes = 0;
-        unsigned lasting = 0;
-        int motion = -1;
-        bool clamped = false;
-        for (unsigned face = 0; face < 2 * dim; face++) {
-            uint32_t bits = cloud->tags[a] >> SOLVER_ON_FACE | cloud->tags[a] >> SOLVER_BEYOND_FACE;
-            if ((bits >> face & 1U) == 0) {
-                continue;
-            }
-            axes |= constrained_axes(scene->face[face], face / 2, dim);
-            lasting |= scene->face[face] == SOLVER_MOTION ? 0 : constrained_axes(scene->face[face], face / 2, dim);
-            clamped = clamped || scene->face[face] == SOLVER_CLAMPED;
-            motion =
-                scene->face[face] == SOLVER_MOTION && motion < 0 ? (int)face : motion; /* the first of several leads */
-        }
-        if (axes == 0) {
-            continue;
-        }
-        struct solver_constraint *constraint = &faces->constraint[faces->constraint_count++];
-        constraint->particle = (uint32_t)a;
-        set_image(constraint, cloud);
-        constraint->motion = clamped ? -1 : motion; /* where a clamped face meets a moving one, it holds */
-        constraint->until = constraint->motion >= 0 ? scene->face_until[constraint->motion] : INFINITY;
-        for (unsigned axis = 0; axis < dim; axis++) {
-            constraint->keep[axis * dim + axis] = (axes >> axis & 1U) != 0 ? 0.0 : 1.0;
-            constraint->after[axis * dim + axis] = (lasting >> axis & 1U) != 0 ? 0.0 : 1.0;
+        struct solver_constraint constraint = {.particle = (uint32_t)a};
+        if (constrain_by_faces(scene, cloud, a, &constraint)) {
+            set_image(&constraint, cloud);
+            faces->constraint[faces->constraint_count++] = constraint;
         }
     }
+    for (unsigned face = 0; face < 2 * dim; face++) {
+        faces->moved = faces->moved || is_moved(scene->face[face]);
+    }
     for (size_t i = 0; i < geometry->face_point_count; i++) {
-        if (scene->face[geometry->face_point[i].face] == SOLVER_TRACTION) {
+        if (traction_of(scene, geometry->face_point[i].face) != SOLVER_FORMULAS) {
             faces->load[faces->load_count++] = geometry->face_point[i];
         }
     }
@@ -90,6 +137,7 @@ void solver_faces_free(struct solver_faces *faces)
 {
     free(faces->constraint);
     free(faces->load);
+    free(faces->force);
     *faces = (struct solver_faces){.constraint = NULL};
 }
 
@@ -100,51 +148,104 @@ static void place(const struct solver_cloud *cloud, size_t a, double X[3])
     }
 }
 
-/* The velocity that a constraint prescribes at particle a; 0 where it holds. */
+/* The velocity that a constraint prescribes at particle a, along each axis; 0 where it holds. */
 static bool prescribe(const struct solver_constraint *constraint, const struct solver_body *body, size_t a, double t,
                       double velocity[3], struct solver_error *error)
 {
+    size_t dim = (size_t)body->cloud->dim;
     double X[3];
-    memset(velocity, 0, 3 * sizeof *velocity);
-    if (constraint->motion < 0 || t > constraint->until) {
-        return true;
-    }
+    double of_face[3];
+    int asked = -1;
     place(body->cloud, a, X);
-    return solver_scene_eval(body->scene, (enum solver_formula)(SOLVER_FACE_X0 + constraint->motion), X, t, velocity,
-                             (size_t)body->cloud->dim, error);
+    for (size_t i = 0; i < dim; i++) {
+        const struct solver_held *axis = &constraint->axis[i];
+        velocity[i] = 0.0;
+        if (axis->motion < 0 || t > axis->until) {
+            continue;
+        }
+        if (axis->motion != asked &&
+            !solver_scene_eval(body->scene, (enum solver_formula)(SOLVER_FACE_X0 + axis->motion), X, t, of_face, dim,
+                               error)) {
+            return false;
+        }
+        asked = axis->motion;
+        velocity[i] = of_face[i];
+    }
+    return true;
 }
 
 bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t, size_t lanes,
                             double *v, struct solver_error *error)
 {
-    size_t dim = (size_t)faces->dim;
     for (size_t c = 0; c < faces->constraint_count; c++) {
         const struct solver_constraint *constraint = &faces->constraint[c];
         double *at = v + constraint->particle * lanes;
         const double *of_image = v + constraint->image * lanes;
-        double free_part[3] = {0};
         double velocity[3];
         double image_velocity[3];
         bool mirrored = constraint->image != constraint->particle;
-        const double *keep = t <= constraint->until ? constraint->keep : constraint->after;
         if (!prescribe(constraint, body, constraint->particle, t, velocity, error) ||
             (mirrored && !prescribe(constraint, body, constraint->image, t, image_velocity, error))) {
             return false;
         }
-        for (size_t i = 0; i < dim; i++) {
-            free_part[i] = mirrored ? constraint->parity * (of_image[i] - image_velocity[i]) : 0.0;
-            for (size_t j = 0; j < dim; j++) {
-                free_part[i] += keep[i * dim + j] * at[j];
-            }
-        }
-        for (size_t i = 0; i < dim; i++) {
-            at[i] = free_part[i] + velocity[i];
+        for (size_t i = 0; i < (size_t)faces->dim; i++) {
+            const struct solver_held *axis = &constraint->axis[i];
+            bool held = t <= axis->until ? axis->held : axis->after;
+            double free_part = mirrored ? constraint->parity * (of_image[i] - image_velocity[i]) : 0.0;
+            at[i] = free_part + (held ? 0.0 : at[i]) + velocity[i];
         }
     }
     return true;
 }
 
-bool solver_faces_load(const struct solver_faces *faces, const struct solver_body *body,
+/* Asks for the body force at time t, unless it is that of the last time. Formulas of the scene share an interpreter;
+ * what stands in for them may be asked by several threads. */
+static bool ask_body_force(struct solver_faces *faces, const struct solver_body *body, double t,
+                           struct solver_error *error)
+{
+    const struct solver_cloud *cloud = body->cloud;
+    size_t dim = (size_t)faces->dim;
+    bool good = true;
+    if (t == faces->force_time) {
+        return true;
+    }
+    faces->force_time = NAN;
+#pragma omp parallel for schedule(static) if (body->scene->drive != NULL)
+    for (size_t a = 0; a < cloud->count; a++) {
+        double X[3];
+        struct solver_error why;
+        place(cloud, a, X);
+        if (!solver_scene_eval(body->scene, SOLVER_BODY_FORCE, X, t, faces->force + a * dim, dim, &why)) {
+#pragma omp critical(solver_body_force)
+            {
+                *error = good ? why : *error;
+                good = false;
+            }
+        }
+    }
+    faces->force_time = good ? t : NAN;
+    return good;
+}
+
+static bool add_body_force(struct solver_faces *faces, const struct solver_body *body,
+                           const struct solver_geometry *geometry, double t, size_t lanes, const double *v,
+                           double *v_rate, double *power, struct solver_error *error)
+{
+    size_t dim = (size_t)faces->dim;
+    if (!ask_body_force(faces, body, t, error)) {
+        return false;
+    }
+    for (size_t a = 0; a < body->cloud->count; a++) {
+        const double *force = faces->force + a * dim;
+        for (size_t axis = 0; axis < dim; axis++) {
+            v_rate[a * lanes + axis] += force[axis] / body->constants[a * body->stride].rho;
+            *power += geometry->V[a] * force[axis] * v[a * lanes + axis];
+        }
+    }
+    return true;
+}
+
+bool solver_faces_load(struct solver_faces *faces, const struct solver_body *body,
                        const struct solver_geometry *geometry, double t, size_t lanes, const double *v, double *v_rate,
                        double *power, struct solver_error *error)
 {
@@ -162,8 +263,7 @@ bool solver_faces_load(const struct solver_faces *faces, const struct solver_bod
         size_t a = load->particle;
         double area = 0.0;
         place(cloud, a, X);
-        if (!solver_scene_eval(scene, (enum solver_formula)(SOLVER_FACE_X0 + (int)load->face), X, t, value, dim,
-                               error)) {
+        if (!solver_scene_eval(scene, traction_of(scene, load->face), X, t, value, dim, error)) {
             return false;
         }
         for (size_t axis = 0; axis < dim; axis++) {
@@ -175,15 +275,5 @@ bool solver_faces_load(const struct solver_faces *faces, const struct solver_bod
             *power += area * value[axis] * v[a * lanes + axis];
         }
     }
-    for (size_t a = 0; faces->body_force && a < cloud->count; a++) {
-        place(cloud, a, X);
-        if (!solver_scene_eval(scene, SOLVER_BODY_FORCE, X, t, value, dim, error)) {
-            return false;
-        }
-        for (size_t axis = 0; axis < dim; axis++) {
-            v_rate[a * lanes + axis] += value[axis] / constants[a * stride].rho;
-            *power += V[a] * value[axis] * v[a * lanes + axis];
-        }
-    }
-    return true;
+    return faces->force == NULL || add_body_force(faces, body, geometry, t, lanes, v, v_rate, power, error);
 }

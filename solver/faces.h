@@ -5,16 +5,18 @@
 
 #include "solver/scheme.h"
 
-/* A particle whose velocity is not free. v <- keep v + prescribed v(X, t). A particle on several faces takes the
- * constraints of all of them. One of a mirrored wall moves against its image in the body, so that the face between them
- * has the prescribed velocity, and the velocity is as smooth across the face as it is within the body. */
+/* A particle whose velocity is not free. Along an axis that is held it is 0, along one that is driven that of a face's
+ * formula at X and t. A particle on several faces takes the constraints of all of them. One of a mirrored wall moves
+ * against its image in the body, so that the face between them has the prescribed velocity, and the velocity is as
+ * smooth across the face as it is within the body. */
 struct solver_constraint {
     uint32_t particle;
-    int motion;      /* face whose velocity formula it follows, or -1 */
-    double keep[9];  /* [dim][dim] projection onto the directions left free */
-    double until;    /* [s] the motion ends; what other faces hold stays held */
-    double after[9]; /* [dim][dim] the projection from then on */
-    uint32_t image;  /* particle of whose velocity relative to the face's it has `parity` times; or itself */
+    struct solver_held {
+        bool held, after; /* the velocity along the axis is not free; nor is it after `until` */
+        int motion;       /* face whose velocity formula it follows until then, or -1 */
+        double until;     /* [s] */
+    } axis[3];
+    uint32_t image; /* particle of whose velocity relative to the face's it has `parity` times; or itself */
     double parity;
 };
 
@@ -22,9 +24,11 @@ struct solver_faces {
     int dim;
     size_t constraint_count;
     struct solver_constraint *constraint; /* by particle */
+    bool moved;                           /* some face is moved, which does work that nobody counts */
     size_t load_count;
-    struct solver_face_point *load; /* face points that carry a traction formula */
-    bool body_force;
+    struct solver_face_point *load; /* face points of faces that prescribe a traction, or one across the normal */
+    double *force;                  /* [count][dim] body force [N/m^3] at force_time; NULL: the scene has none */
+    double force_time; /* [s]; stages of a step share times, and what a formula says of one is asked once */
 };
 
 /* `geometry` is that of the body's scheme, here and below. */
@@ -37,7 +41,7 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
                             double *v, struct solver_error *error);
 /* Adds tractions and body forces at time t, per unit of reference area and volume, to v_rate; *power [W] becomes their
  * power at velocities v. */
-bool solver_faces_load(const struct solver_faces *faces, const struct solver_body *body,
+bool solver_faces_load(struct solver_faces *faces, const struct solver_body *body,
                        const struct solver_geometry *geometry, double t, size_t lanes, const double *v, double *v_rate,
                        double *power, struct solver_error *error);
 

@@ -193,6 +193,11 @@ bool solver_run_create(const struct solver_scene *scene, struct solver_run **out
         return solver_fail(error, SOLVER_BAD_INPUT,
                            "%s: initial.from: the scene starts from its oracle, and none was given", scene->path);
     }
+    if (strcmp(scene->loads_from, "oracle") == 0 && scene->drive == NULL) {
+        solver_run_free(run);
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: loads.from: the scene is driven by its oracle, and none was given", scene->path);
+    }
     run->scene = scene;
     if (!build(run, error)) {
         solver_run_free(run);

@@ -194,13 +194,11 @@ static bool check_energy(const struct solver_run *run, struct solver_error *erro
     const struct solver_history *history = &run->history;
     const struct solver_totals *first = &history->totals[0];
     const struct solver_totals *last = &history->totals[history->count - 1];
-    for (size_t i = 0; i < run->faces.constraint_count; i++) {
-        if (run->faces.constraint[i].motion >= 0) {
-            return true;
-        }
+    if (run->faces.moved) {
+        return true;
     }
     /* over the first steps of a load that starts from nothing, the quadrature of its work is poor */
-    bool loaded = run->faces.load_count > 0 || run->faces.body_force;
+    bool loaded = run->faces.load_count > 0 || run->faces.force != NULL;
     if (loaded && run->step < 20) {
         return true;
     }
@@ -238,7 +236,7 @@ static double next_stop(const struct solver_run *run, double t_end)
     double stop = t_end;
     for (int face = 0; face < 2 * run->scene->dim; face++) {
         double until = run->scene->face_until[face];
-        stop = run->scene->face[face] == SOLVER_MOTION && until > run->time && until < stop ? until : stop;
+        stop = until > run->time && until < stop ? until : stop;
     }
     return stop;
 }

@@ -112,6 +112,8 @@ static int read_scene(lua_State *L)
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)
         if (solver_scene_has(scene, (enum solver_formula)f))
             scene_refuse(L, "initial.from: the oracle gives the initial state, and the scene a formula for it besides");
+    if (strcmp(scene->loads_from, "oracle") == 0 && solver_scene_has(scene, SOLVER_BODY_FORCE))
+        scene_refuse(L, "loads.from: the oracle gives the body force, and the scene a formula for it besides");
     if (scene->has_view)
         check_view(L, &scene->view);
     scene_read_faces(L, scene);
@@ -150,8 +152,9 @@ static bool try_formulas(const struct solver_scene *scene, struct solver_error *
         if (!solver_scene_has(scene, (enum solver_formula)f))
             continue;
         place_of_body(scene, X);
-        if (f > SOLVER_FACE_X0 && (f - SOLVER_FACE_X0) % 2)
-            X[(f - SOLVER_FACE_X0) / 2] = scene->upper[(f - SOLVER_FACE_X0) / 2];
+        int face = (f - SOLVER_FACE_X0) % SOLVER_FACES;
+        if (f > SOLVER_FACE_X0 && face % 2)
+            X[face / 2] = scene->upper[face / 2];
         if (!solver_scene_eval(scene, (enum solver_formula)f, X, 0, value, count, error))
             return false;
     }
@@ -183,6 +186,7 @@ void solver_scene_free(struct solver_scene *scene)
 {
     if (!scene)
         return;
+    solver_scene_drive_from(scene, NULL, NULL, NULL);
     scene_lua_free(scene->lua);
     free(scene->text);
     free(scene->overrides);

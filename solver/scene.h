@@ -39,6 +39,8 @@ enum solver_formula {
     SOLVER_MATERIAL_AT, /* material.at: E [Pa], nu, rho [kg/m^3] at X; without it they are the same everywhere */
     SOLVER_FACE_X0,     /* faces.X0.value: traction [Pa] or velocity [m/s]; X1, Y0, Y1, Z0, Z1 follow */
     SOLVER_FACE_Z1 = SOLVER_FACE_X0 + 5,
+    SOLVER_SHEAR_X0, /* faces.X0.traction: traction [Pa] of a roller; X1, Y0, Y1, Z0, Z1 follow */
+    SOLVER_SHEAR_Z1 = SOLVER_SHEAR_X0 + 5,
     SOLVER_FORMULAS
 };
 
@@ -48,7 +50,8 @@ enum solver_face_kind {
     SOLVER_SKEW,      /* no displacement across the normal (skew-symmetric) */
     SOLVER_CLAMPED,   /* no displacement */
     SOLVER_TRACTION,  /* first Piola-Kirchhoff traction by formula [Pa] */
-    SOLVER_MOTION     /* velocity by formula [m/s] */
+    SOLVER_MOTION,    /* velocity by formula [m/s] */
+    SOLVER_ROLLER     /* along the normal velocity by formula [m/s], across it traction by formula [Pa], default none */
 };
 
 /* Where particles lie: on the corners of the cells of a lattice, or in their centres. */
@@ -167,6 +170,10 @@ struct solver_view {
 
 /* The state at t = 0 at X [m]: displacement [m], velocity [m/s], F row by row, 3D. */
 typedef void solver_start(const void *context, const double X[3], double u[3], double v[3], double F[9]);
+/* What drives the body at X [m] and t [s]: what the formula would give that it stands in for, of body_force and those
+ * of faces; 3D. */
+typedef void solver_drive(const void *context, enum solver_formula formula, const double X[3], double t,
+                          double value[3]);
 
 struct solver_scene {
     char path[4096];
@@ -214,6 +221,7 @@ struct solver_scene {
 
     enum solver_face_kind face[SOLVER_FACES]; /* X0, X1, Y0, Y1, Z0, Z1 */
     char initial_from[SOLVER_NAME];           /* "formulas", or "oracle": see solver_scene_start_from */
+    char loads_from[SOLVER_NAME];             /* likewise for what drives the body: see solver_scene_drive_from */
     double face_until[SOLVER_FACES];          /* [s] a moved face is free after this time; infinite otherwise */
     struct solver_probe probe[SOLVER_PROBES];
     size_t probe_count;
@@ -236,6 +244,9 @@ struct solver_scene {
 
     solver_start *start; /* NULL: the formulas */
     void *start_context;
+    solver_drive *drive; /* NULL: the formulas */
+    void *drive_context;
+    void (*drive_release)(void *context);
     struct solver_scene_lua *lua; /* the interpreter that holds the formulas; private */
 };
 
@@ -257,6 +268,11 @@ bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula for
 /* Initial displacement, velocity and F come from `start` in place of formulas, while `context` lasts. A scene with
  * initial.from = "oracle" needs this before a run of it is created: the solver knows no oracles. */
 void solver_scene_start_from(struct solver_scene *scene, solver_start *start, void *context);
+/* Body force and what faces prescribe come from `drive` in place of formulas; NULL: from the formulas again. The
+ * context is released (release may be NULL) when it is replaced or the scene freed. A scene with loads.from = "oracle"
+ * needs this before a run of it is created. `drive` may be called by several threads at a time. */
+void solver_scene_drive_from(struct solver_scene *scene, solver_drive *drive, void *context,
+                             void (*release)(void *context));
 /* A number of the scene by its path: "material.nu", "cfl", or one of the scene's parameters ("U0").
  * False if there is none of that name. */
 bool solver_scene_number(const struct solver_scene *scene, const char *path, double *value);

@@ -12,8 +12,8 @@
 #define OPTIONAL   ""
 #define ABOVE_ZERO DBL_MIN
 #define FACE_KINDS                                                                                                     \
-    "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f } or { kind = \"motion\", value = f, " \
-    "until = t }"
+    "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f }, { kind = \"motion\", value = f, "    \
+    "free_after = t } or { kind = \"roller\", value = f, traction = f }"
 #define FORMULA "function(X, Y, Z, t) returning dim numbers"
 
 /* clang-format off */
@@ -101,6 +101,8 @@ X("threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 102
   "threads; 0: as many as there are cores and the work is worth")                                                     \
 X("initial.from", WORD, AT(initial_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",             \
   "whether formulas or the exact solution give the initial state")                                                     \
+X("loads.from", WORD, AT(loads_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",                 \
+  "whether formulas or the exact solution give the body force, and what faces prescribe")                              \
 X("initial.displacement", FORMULA, SOLVER_INITIAL_DISPLACEMENT, 0, 0, 0, "", OPTIONAL, FORMULA,                        \
   "initial displacement [m]; default 0")                                                                               \
 X("initial.velocity", FORMULA, SOLVER_INITIAL_VELOCITY, 0, 0, 0, "", OPTIONAL, FORMULA,                                \

@@ -1,4 +1,4 @@
-/* Reads the structured parts of a scene: faces, probes, oracle, published figures, gates. */
+/* Reads the structured parts of a scene: probes, oracle, published figures, gates. */
 #include "solver/scene_internal.h"
 
 #include <float.h>
@@ -53,65 +53,6 @@ static void append(lua_State *L, const char *key, const char *name, struct solve
     struct solver_named *entry = &named[(*count)++];
     snprintf(entry->name, sizeof entry->name, "%s", name);
     entry->value = scene_read_number(L, path, -1, -DBL_MAX, DBL_MAX, "a number");
-}
-
-/* --- faces --- */
-
-const char scene_face_kinds[] = "free symmetric skew-symmetric clamped traction motion";
-
-void scene_read_faces(lua_State *L, struct solver_scene *scene)
-{
-    for (int k = 0; solver_scene_keys()[k].key; k++) {
-        const struct solver_scene_key *key = &solver_scene_keys()[k];
-        const struct scene_key *rule = scene_key_rule(k);
-        if (rule->kind != SCENE_FACE)
-            continue;
-        scene_lua_push(L, key->key);
-        int given = lua_gettop(L), face = (int)rule->offset;
-        bool ends = false;
-        scene->face_until[face] = INFINITY;
-        if (lua_isnil(L, given)) {
-            lua_pop(L, 1);
-            continue;
-        }
-        if (face / 2 >= scene->dim)
-            scene_refuse(L, "%s: a body of dim = %d has no such face", key->key, scene->dim);
-        bool has_value = false;
-        if (lua_istable(L, given)) {
-            for (lua_pushnil(L); lua_next(L, given); lua_pop(L, 1)) {
-                const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "1";
-                if (strcmp(name, "kind") != 0 && strcmp(name, "value") != 0 && strcmp(name, "free_after") != 0)
-                    scene_refuse(L, "%s.%.60s: unknown key; expected kind, value and free_after", key->key, name);
-            }
-            ends = lua_getfield(L, given, "free_after") != LUA_TNIL;
-            if (ends) {
-                char path[2 * SOLVER_NAME];
-                snprintf(path, sizeof path, "%s.free_after", key->key);
-                scene->face_until[face] = scene_read_number(L, path, -1, DBL_MIN, DBL_MAX, "number > 0 [s]");
-            }
-            has_value = lua_getfield(L, given, "value") != LUA_TNIL;
-            lua_getfield(L, given, "kind");
-        } else
-            lua_pushvalue(L, given);
-        bool later;
-        int kind = lua_type(L, -1) == LUA_TSTRING ? scene_word_find(scene_face_kinds, lua_tostring(L, -1), &later) : -1;
-        if (kind < 0)
-            scene_refuse_value(L, key->key, key->expects, -1);
-        bool wants_value = kind == SOLVER_TRACTION || kind == SOLVER_MOTION;
-        if (wants_value && (!has_value || !lua_isfunction(L, -2)))
-            scene_refuse(L, "%s: '%s' needs value = function(X, Y, Z, t) returning %d number%s", key->key,
-                         lua_tostring(L, -1), scene->dim, scene->dim == 1 ? "" : "s");
-        if (has_value && !wants_value)
-            scene_refuse(L, "%s: '%s' takes no value", key->key, lua_tostring(L, -1));
-        if (ends && kind != SOLVER_MOTION)
-            scene_refuse(L, "%s: only 'motion' takes free_after, '%s' lasts", key->key, lua_tostring(L, -1));
-        scene->face[face] = (enum solver_face_kind)kind;
-        if (wants_value) {
-            lua_pushvalue(L, -2);
-            scene_lua_keep_formula(L, (enum solver_formula)(SOLVER_FACE_X0 + face));
-        }
-        lua_settop(L, given - 1);
-    }
 }
 
 /* --- probes --- */

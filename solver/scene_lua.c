@@ -205,9 +205,15 @@ void scene_lua_keep_formula(lua_State *L, enum solver_formula formula)
     scene_lua_of(L)->formula[formula] = luaL_ref(L, LUA_REGISTRYINDEX);
 }
 
+/* Whether `drive` stands in for the formula. */
+static bool is_driven(const struct solver_scene *scene, enum solver_formula formula)
+{
+    return scene->drive != NULL && (formula == SOLVER_BODY_FORCE || formula >= SOLVER_FACE_X0);
+}
+
 bool solver_scene_has(const struct solver_scene *scene, enum solver_formula formula)
 {
-    bool given = scene->start != NULL && formula <= SOLVER_INITIAL_F;
+    bool given = (scene->start != NULL && formula <= SOLVER_INITIAL_F) || is_driven(scene, formula);
     return given || scene->lua->formula[formula] != LUA_NOREF;
 }
 
@@ -215,6 +221,17 @@ void solver_scene_start_from(struct solver_scene *scene, solver_start *start, vo
 {
     scene->start = start;
     scene->start_context = context;
+}
+
+void solver_scene_drive_from(struct solver_scene *scene, solver_drive *drive, void *context,
+                             void (*release)(void *context))
+{
+    if (scene->drive_release != NULL) {
+        scene->drive_release(scene->drive_context);
+    }
+    scene->drive = drive;
+    scene->drive_context = context;
+    scene->drive_release = release;
 }
 
 /* What was given in place of an initial formula. */
@@ -271,8 +288,10 @@ static void name_formula(enum solver_formula formula, char *out, size_t size)
     static const char *const face[] = {"X0", "X1", "Y0", "Y1", "Z0", "Z1"};
     if (formula < SOLVER_FACE_X0)
         snprintf(out, size, "%s", name[formula]);
-    else
+    else if (formula < SOLVER_SHEAR_X0)
         snprintf(out, size, "faces.%s.value", face[formula - SOLVER_FACE_X0]);
+    else
+        snprintf(out, size, "faces.%s.traction", face[formula - SOLVER_SHEAR_X0]);
 }
 
 bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula formula, const double X[3], double t,
@@ -289,6 +308,12 @@ bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula for
         return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: %s: the scene gives no such formula", scene->path, name);
     if (scene->start != NULL && formula <= SOLVER_INITIAL_F) {
         ask_start(scene, formula, X, out);
+        return true;
+    }
+    if (is_driven(scene, formula)) {
+        double value[3];
+        scene->drive(scene->drive_context, formula, X, t, value);
+        memcpy(out, value, count * sizeof *out);
         return true;
     }
     snprintf(lua->doing, sizeof lua->doing, "%s at X = (%.6g, %.6g, %.6g), t = %.6g", name, X[0], X[1], X[2], t);

@@ -48,6 +48,16 @@ struct solver_scheme_choice {
     const char *text, *meaning;
 };
 
+/* What a scheme promises whatever the scene: each with the overrides that it needs, as `--set` spells them, separated
+ * by blanks ("": none), or NULL where it is not promised. Tests hold the scheme to each, and measure what it lacks. */
+struct solver_scheme_claims {
+    const char *affine;   /* x = F(t) X + t c stays exact to round-off where loads and faces belong to it, on a stencil
+                             that keeps constant stress (stencil.h), by an integrator whose order is the degree of the
+                             evolved measures in t */
+    const char *turning;  /* a body that turns as a whole has no stress but of the integrator's order in the step */
+    const char *momentum; /* a free body keeps its linear momentum to round-off */
+};
+
 struct solver_scheme {
     const char *name, *summary;
     const struct solver_scheme_choice *choice; /* ends with a NULL text; NULL: none */
@@ -55,6 +65,7 @@ struct solver_scheme {
     bool stencil; /* it stands on the scene's stencil: keys evolved, stencil, reconstruction and volume_flux are for it
                    */
     const char *advice; /* what to try when a particle breaks */
+    struct solver_scheme_claims claims;
 
     /* Geometry and terms, for the scene's keys. The fields come later. */
     bool (*create)(const struct solver_body *body, void **system, struct solver_error *error);

@@ -406,6 +406,7 @@ const struct solver_scheme solver_scheme_ulsph = {
     .choice = choices,
     .deformation = false,
     .advice = "a smaller cfl, a finer n, or another ulsph.tension",
+    .claims = {.turning = "ulsph.xsph=0 ulsph.tension=none", .momentum = "ulsph.tension=stress"},
     .create = create,
     .destroy = destroy,
     .geometry = geometry,

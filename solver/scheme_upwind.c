@@ -323,6 +323,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .deformation = true,
     .stencil = true,
     .advice = "a smaller cfl, a finer n, or evolved = \"pFHJ\"",
+    .claims = {.affine = "", .turning = "", .momentum = ""},
     .create = create,
     .destroy = destroy,
     .geometry = geometry,

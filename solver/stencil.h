@@ -41,6 +41,13 @@ struct solver_stencil_builder {
                   struct solver_error *error);
 };
 
+/* Whether a constant stress with its tractions is equilibrium and a linear velocity has its gradient, at every
+ * particle: what the patch test asks. */
+static inline bool solver_stencil_keeps_constant_stress(const struct solver_stencil_builder *builder)
+{
+    return builder->antisymmetric && builder->closed && builder->boundary >= 1;
+}
+
 /* The table, ends with a NULL name. */
 const struct solver_stencil_builder *solver_stencil_builders(void);
 const struct solver_stencil_builder *solver_stencil_find(const char *name);

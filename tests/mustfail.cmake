@@ -41,6 +41,8 @@ function(assay_mutate name)
     target_compile_definitions(mutated_${name}_${library} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_DEFINITIONS>)
     target_compile_options(mutated_${name}_${library} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_OPTIONS>)
     target_include_directories(mutated_${name}_${library} PRIVATE ${CMAKE_SOURCE_DIR})
+    target_include_directories(mutated_${name}_${library} SYSTEM PRIVATE
+      $<TARGET_PROPERTY:${library},INCLUDE_DIRECTORIES>)
     list(APPEND objects $<TARGET_OBJECTS:mutated_${name}_${library}>)
   endforeach()
   set(objects ${objects} PARENT_SCOPE)
@@ -99,6 +101,14 @@ assay_unit_mutant(ulsph-diffusion-across solver_ulsph_diffusion "nothing crosses
 assay_unit_mutant(ulsph-kernel-height solver_ulsph_pairs "kernel")
 assay_unit_mutant(skin-late solver_skin "two that close in")
 assay_unit_mutant(contact-foresight solver_contact "two particles")
+assay_unit_mutant(closed-one-pair solver_stencil "every builder in 2D")
+assay_unit_mutant(sbp4-boundary-row solver_affine "what claims affine motions keeps them, 1D")
+assay_unit_mutant(edge-traction solver_affine "what claims affine motions keeps them, 2D")
+assay_unit_mutant(skew-normal solver_affine "what claims affine motions keeps them, 2D")
+assay_unit_mutant(cofactor-rate solver_affine "what claims affine motions keeps them, 2D")
+assay_unit_mutant(jacobian-rate solver_rotation "cells and their stress through a turn, 2D")
+assay_unit_mutant(ulsph-spin-short solver_rotation "cells and their stress through a turn, 2D")
+assay_unit_mutant(ulsph-pair-volumes solver_run_momentum "linear momentum over 1000 steps, 2D")
 
 # A mutant whose text is no longer in the source is an error: here, in a source that is broken already.
 assay_test(mustfail-rotten-mutant LABELS mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 1

@@ -43,7 +43,7 @@ cli_refuses(json-over-another-file "ends in .json" verify swinging-cube --levels
             --json /dev/null)
 cli_refuses(out-is-a-file "CMakeCache.txt" run swinging-cube --set n=8 --out CMakeCache.txt)
 
-foreach(command list run verify render golden bench)
+foreach(command list run verify render golden compare bench)
   assay_test(cli-help-${command} LABELS unit COMMAND ${cli} 0 "usage: assay ${command}" ${assay} ${command} --help)
 endforeach()
 assay_test(cli-list LABELS unit COMMAND ${cli} 0 "Swinging cube" ${assay} list)
@@ -52,9 +52,27 @@ assay_test(cli-bench-without-stencil LABELS unit COMMAND ${cli} 0 "-        -   
   ${assay} bench swinging-cube --set scheme=ulsph --set n=4)
 assay_test(cli-list-materials LABELS unit COMMAND ${cli} 0 "Hooke's law" ${assay} list materials)
 assay_test(cli-list-stencils LABELS unit COMMAND ${cli} 0 "summation-by-parts 4-2" ${assay} list stencils)
+assay_test(cli-list-claims LABELS unit COMMAND ${cli} 0 "to degree 4, 2 at the boundary" ${assay} list stencils)
+assay_test(cli-list-promises LABELS unit COMMAND ${cli} 0 "with ulsph.tension=stress" ${assay} list schemes)
 assay_test(cli-list-integrators LABELS unit COMMAND ${cli} 0 "four-stage" ${assay} list integrators)
 assay_test(cli-list-measures LABELS unit COMMAND ${cli} 0 "damped oscillation" ${assay} list measures)
 assay_test(cli-list-keys LABELS unit COMMAND ${cli} 0 "material.nu" ${assay} list keys)
+
+# Two pictures: the same, another scene's, of another size, none, and a difference that is asked for over one of them.
+set(stored ${CMAKE_SOURCE_DIR}/golden)
+set(cli_script "sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh")
+assay_test(cli-compare-same LABELS image COMMAND ${cli} 0 "0.000 % of the pixels differ visibly" ${assay} compare
+  ${stored}/rings.png ${stored}/rings.png)
+assay_test(cli-compare-other LABELS image mustfail COMMAND sh -c
+  "rm -f test-out/compared.png
+   ${cli_script} 1 FAIL $<TARGET_FILE:assay> compare ${stored}/rod-impact.png ${stored}/elastic-cable.png -o test-out/compared.png &&
+   ${cli_script} 0 PASS $<TARGET_FILE:assay> compare ${stored}/rod-impact.png ${stored}/elastic-cable.png --tolerance 1,1 &&
+   ${cli_script} 2 'one of the pictures compared' $<TARGET_FILE:assay> compare ${stored}/rod-impact.png test-out/compared.png -o ./test-out/compared.png &&
+   ${cli_script} 0 PASS $<TARGET_FILE:assay> compare test-out/compared.png test-out/compared.png")
+cli_refuses(compare-nothing "nothing.png: cannot be read" compare ${stored}/rings.png nothing.png)
+cli_refuses(compare-sizes "expected the same" compare ${stored}/rings.png ${stored}/elastic-cable.png)
+cli_refuses(compare-no-picture "not a whole PNG" compare ${stored}/rings.png ${stored}/rings.vtkhdf)
+cli_refuses(compare-tolerance "two numbers from 0 to 1" compare a.png b.png --tolerance 2)
 
 # An oracle that is told another number than the solver must make the gates fail: amplitude and modulus by 1 %.
 set(mismatch sh ${CMAKE_CURRENT_SOURCE_DIR}/mismatch.sh ${assay})

@@ -1,5 +1,6 @@
 #include "golden/golden.h"
 #include "verify/commands.h"
+#include "verify/compare.h"
 #include "verify/find.h"
 #include "verify/picture.h"
 #include "verify/simulate.h"
@@ -87,22 +88,12 @@ static bool show_difference(const char *folder, const char *name, const struct r
 static bool compare_pictures(const char *stored_path, const char *fresh_path, const char *folder, const char *name,
                              bool *same, struct solver_error *error)
 {
-    struct render_image *stored = NULL, *fresh = NULL;
+    struct render_image *stored = NULL;
     struct render_difference difference = {.same = false};
-    char why[RENDER_WHY] = "";
-    bool done = (render_png_read(stored_path, &stored, why) && render_png_read(fresh_path, &fresh, why) &&
-                 render_compare(stored, fresh, true, &difference, why)) ||
-                solver_fail(error, SOLVER_BAD_INPUT, "%s: %s", stored_path, why);
-    if (done) {
-        *same = difference.same;
-        (void)printf("  picture: %.3f %% of the pixels differ visibly, %.1f %% in the worst tile, at (%d, %d)  %s\n",
-                     100 * difference.fraction, 100 * difference.worst_tile, difference.tile[0], difference.tile[1],
-                     difference.same ? "PASS" : "FAIL");
-        done = difference.same || show_difference(folder, name, stored, &difference, error);
-    }
+    bool done = verify_compare(stored_path, fresh_path, render_tolerance_default, &stored, &difference, same, error) &&
+                (*same || show_difference(folder, name, stored, &difference, error));
     render_image_free(difference.picture);
     render_image_free(stored);
-    render_image_free(fresh);
     return done;
 }
 
@@ -166,7 +157,7 @@ int verify_command_golden(const struct verify_options *options)
         return verify_complain(&error);
     }
     char golden[VERIFY_PATH];
-    verify_source_folder("golden", golden);
+    verify_folder_find(VERIFY_FOLDER_GOLDEN, golden);
     const char *folder = options->dir != NULL ? options->dir : golden;
     bool same = true;
     bool done = renew ? update(options, scene, folder, &error) : check(options, scene, folder, &same, &error);

@@ -56,6 +56,14 @@ static void list_line(const char *name, const char *summary)
     (void)printf("  %-24s %s\n", name, summary);
 }
 
+/* What a scheme promises, with the overrides that the promise needs. */
+static void list_claim(const char *what, const char *needs)
+{
+    if (needs != NULL) {
+        (void)printf("  %-24s   %s%s%s\n", "", what, needs[0] != '\0' ? " with " : "", needs);
+    }
+}
+
 static bool list_schemes(struct solver_error *error)
 {
     (void)error;
@@ -68,6 +76,11 @@ static bool list_schemes(struct solver_error *error)
             (void)snprintf(indented, sizeof indented, "  %s", choice->text);
             list_line(indented, choice->meaning);
         }
+        const struct solver_scheme_claims *claims = &(*scheme)->claims;
+        list_line("  claims", "");
+        list_claim("affine motions exact to round-off, on a stencil that keeps constant stress", claims->affine);
+        list_claim("no stress by turning but of the integrator's order", claims->turning);
+        list_claim("linear momentum to round-off", claims->momentum);
     }
     return true;
 }
@@ -88,6 +101,12 @@ static bool list_stencils(struct solver_error *error)
     (void)printf("stencils\n");
     for (const struct solver_stencil_builder *builder = solver_stencil_builders(); builder->name != NULL; builder++) {
         list_line(builder->name, builder->summary);
+        (void)printf(
+            "  %-24s   claims gradients of polynomials to degree %d, %d at the boundary; %s constant stress in "
+            "equilibrium; %s\n",
+            "", builder->degree, builder->boundary,
+            solver_stencil_keeps_constant_stress(builder) ? "keeps" : "does not keep",
+            builder->lattice_only ? "lattices only" : "any cloud");
     }
     return true;
 }

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 /* Splits "KEY=value\n" lines in place; the command line's overrides follow, and so win. */
@@ -57,9 +56,7 @@ static bool picture_path(const struct verify_options *options, char path[VERIFY_
     if (length >= VERIFY_PATH) {
         return solver_fail(error, SOLVER_BAD_INPUT, "--output: the path is too long");
     }
-    struct stat of_record, of_picture;
-    if (stat(record, &of_record) == 0 && stat(path, &of_picture) == 0 && of_record.st_dev == of_picture.st_dev &&
-        of_record.st_ino == of_picture.st_ino) {
+    if (verify_file_same(record, path)) {
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: is the record itself; choose another -o for its picture",
                            path);
     }

@@ -238,6 +238,12 @@ static bool study(struct work *work, bool *passed, struct solver_error *error)
 int verify_command_verify(const struct verify_options *options)
 {
     struct solver_error error = {.code = SOLVER_OK};
+    if (options->mutations) {
+        return verify_command_mutations(options);
+    }
+    if (strcmp(options->operand[0], "mms") == 0) {
+        return verify_command_mms(options);
+    }
     struct work *work = calloc(1, sizeof *work);
     if (work == NULL) {
         (void)solver_fail(&error, SOLVER_NO_MEMORY, "no memory for a study");

@@ -6,8 +6,13 @@
 
 int verify_command_run(const struct verify_options *options);
 int verify_command_verify(const struct verify_options *options);
+/* `verify --mutations`: see mutations.h. */
+int verify_command_mutations(const struct verify_options *options);
+/* `verify mms`: see mms.h. */
+int verify_command_mms(const struct verify_options *options);
 int verify_command_render(const struct verify_options *options);
 int verify_command_golden(const struct verify_options *options);
+int verify_command_compare(const struct verify_options *options);
 int verify_command_bench(const struct verify_options *options);
 int verify_command_judge(const struct verify_options *options);
 int verify_command_oracle(const struct verify_options *options);

@@ -83,6 +83,12 @@ bool verify_folder_make(const char *path, struct solver_error *error)
     return true;
 }
 
+bool verify_file_same(const char *one, const char *other)
+{
+    struct stat a, b;
+    return stat(one, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
 bool verify_path_join(char *path, const char *folder, const char *name, const char *ending, struct solver_error *error)
 {
     if (snprintf(path, VERIFY_PATH, "%s/%s%s", folder, name, ending) >= VERIFY_PATH) {

@@ -15,6 +15,8 @@ bool verify_file_write(const char *path, const void *bytes, size_t size, struct 
 bool verify_file_read(const char *path, char **bytes, size_t *size, struct solver_error *error);
 /* Makes a folder and those above it, where they are missing. */
 bool verify_folder_make(const char *path, struct solver_error *error);
+/* Whether both are there and are one file, by whatever names. */
+bool verify_file_same(const char *one, const char *other);
 /* "FOLDER/NAME.ENDING" into a path of VERIFY_PATH bytes. */
 bool verify_path_join(char *path, const char *folder, const char *name, const char *ending, struct solver_error *error);
 

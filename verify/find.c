@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static const char ending[] = ".lua";
 enum { ENDING = sizeof ending - 1 };
@@ -17,12 +18,42 @@ static bool ends_in_lua(const char *name)
     return length > ENDING && strcmp(name + length - ENDING, ending) == 0;
 }
 
-void verify_source_folder(const char *name, char folder[VERIFY_PATH])
+static const struct {
+    const char *installed, *source;
+} folders[] = {
+    [VERIFY_FOLDER_SCENES] = {"scenes", "verify/scenes"},
+    [VERIFY_FOLDER_GOLDEN] = {"golden", "golden"},
+};
+
+bool verify_folder_installed(enum verify_folder which, const char *program, char folder[VERIFY_PATH])
+{
+    static const char bin[] = "/" ASSAY_BIN;
+    const char *slash = strrchr(program, '/');
+    size_t length = slash != NULL ? (size_t)(slash - program) : 0;
+    /* Not so in a build tree, which must not see what may be installed beside it. */
+    if (length < sizeof bin - 1 || memcmp(program + length - (sizeof bin - 1), bin, sizeof bin - 1) != 0) {
+        return false;
+    }
+    char path[VERIFY_PATH];
+    int written =
+        snprintf(path, VERIFY_PATH, "%.*s/%s/%s", (int)length, program, ASSAY_SHARE, folders[which].installed);
+    return written < VERIFY_PATH && realpath(path, folder) != NULL;
+}
+
+static bool is_there(const char *root, enum verify_folder which, char folder[VERIFY_PATH])
 {
     struct stat status;
-    int length = snprintf(folder, VERIFY_PATH, "%s/%s", ASSAY_SOURCE_DIR, name);
-    if (length >= VERIFY_PATH || stat(folder, &status) != 0) {
-        (void)snprintf(folder, VERIFY_PATH, "./%s", name);
+    int length = snprintf(folder, VERIFY_PATH, "%s/%s", root, folders[which].source);
+    return length < VERIFY_PATH && stat(folder, &status) == 0;
+}
+
+void verify_folder_find(enum verify_folder which, char folder[VERIFY_PATH])
+{
+    char program[VERIFY_PATH];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    program[length > 0 ? length : 0] = '\0';
+    if (!verify_folder_installed(which, program, folder) && !is_there(ASSAY_SOURCE_DIR, which, folder)) {
+        (void)is_there(".", which, folder);
     }
 }
 
@@ -34,12 +65,12 @@ static int by_name(const void *a, const void *b)
 bool verify_scenes_list(struct verify_scenes *scenes, struct solver_error *error)
 {
     scenes->count = 0;
-    verify_source_folder("verify/scenes", scenes->folder);
+    verify_folder_find(VERIFY_FOLDER_SCENES, scenes->folder);
     DIR *folder = opendir(scenes->folder);
     if (folder == NULL) {
         return solver_fail(error, SOLVER_IO,
-                           "%s: cannot read the folder of scenes; start the program where the source lies, or give the "
-                           "path of a .lua file",
+                           "%s: cannot read the folder of scenes; install the program whole, start it where the source "
+                           "lies, or give the path of a .lua file",
                            scenes->folder);
     }
     for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {

@@ -87,7 +87,7 @@ static void forget_what_is_not_conserved(const struct solver_scene *scene, doubl
         if (scene->face[face] != SOLVER_FREE || solver_scene_has(scene, SOLVER_BODY_FORCE)) {
             value[VERIFY_LINEAR_MOMENTUM] = value[VERIFY_ANGULAR_MOMENTUM] = NAN;
         }
-        if (scene->face[face] == SOLVER_MOTION) {
+        if (scene->face[face] == SOLVER_MOTION || scene->face[face] == SOLVER_ROLLER) {
             value[VERIFY_ENERGY_GAIN] = NAN;
         }
     }

@@ -20,6 +20,8 @@ static const struct {
     {VERIFY_SIGMA, "cauchy_stress"},
     {VERIFY_SIGMA, "stress"},
     {VERIFY_PRESSURE, "mean_stress"},
+    {VERIFY_H, "cofactor"},
+    {VERIFY_J, "jacobian"},
 };
 
 size_t verify_judged_count(const struct oracle_kind *kind)

@@ -1,6 +1,7 @@
 /* assay: the command line. Dispatch only; each command stands in its own file. */
 #include "verify/commands.h"
 #include "verify/help.h"
+#include "verify/manual.h"
 #include "verify/suggest.h"
 
 #include <stdio.h>
@@ -28,23 +29,28 @@ static const struct verify_command commands[] = {
     {.name = "verify",
      .operands = "SCENE",
      .summary = "convergence study against the scene's oracle, with gates",
-     .help = "Runs a scene at several spacings and compares each result with the scene's exact solution, which first\n"
-             "has to prove itself. Prints errors and observed orders beside the published figures, then the gates:\n"
-             "what was measured, the bound, and whether it holds. Writes report.html, report.json, and the record and\n"
-             "pictures of the finest level. n counts spacings along the scene's reference length.\n\n"
-             "  assay verify swinging-cube\n"
-             "  assay verify swinging-cube --levels 8,16,24,32 --set cfl=0.4 --json result.json\n"
-             "  assay verify swinging-cube --set oracle.U0=5.05e-4   the oracle is told something else: gates fail\n\n"
-             "Exit code: 0 all gates pass, or none holds for the configuration, which is then said; 1 a gate or the\n"
-             "oracle's self-check fails; 2 the command line, the scene or a file is wrong; 3 the run broke down.",
-     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_LEVELS | VERIFY_TAKES_JSON | VERIFY_TAKES_OUT,
+     .help =
+         "Runs a scene at several spacings and compares each result with the scene's exact solution, which first\n"
+         "has to prove itself. Prints errors and observed orders beside the published figures, then the gates:\n"
+         "what was measured, the bound, and whether it holds. Writes report.html, report.json, and the record and\n"
+         "pictures of the finest level. n counts spacings along the scene's reference length.\n\n"
+         "  assay verify swinging-cube\n"
+         "  assay verify swinging-cube --levels 8,16,24,32 --set cfl=0.4 --json result.json\n"
+         "  assay verify swinging-cube --set oracle.U0=5.05e-4   the oracle is told something else: gates fail\n\n"
+         "SCENE may be mms: manufactured solutions, run for every scheme, stencil, evolved set, material, integrator\n"
+         "and kind of boundary data, and the orders that they achieve in one table.\n\n"
+         "Exit code: 0 all gates pass, or none holds for the configuration, which is then said; 1 a gate or the\n"
+         "oracle's self-check fails; 2 the command line, the scene or a file is wrong; 3 the run broke down.",
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_LEVELS | VERIFY_TAKES_JSON | VERIFY_TAKES_OUT | VERIFY_TAKES_MUTATIONS,
      .least = 1,
      .most = 1,
      .run = verify_command_verify},
     {.name = "render",
      .operands = "RECORD",
      .summary = "contour picture of a record",
-     .help = "Draws a record (.vtkhdf) as the view of the scene stored in it says; --set changes that view.\n\n"
+     .help = "Draws a record (.vtkhdf) as the view of the scene stored in it says; --set changes that view. The "
+             "picture is\n"
+             "named as the record, with .png, unless -o says otherwise.\n\n"
              "  assay render out/swinging-cube/swinging-cube.vtkhdf -o stress.png --set view.field=von_mises",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_PICTURE,
      .least = 1,
@@ -61,6 +67,22 @@ static const struct verify_command commands[] = {
      .least = 2,
      .most = 2,
      .run = verify_command_golden},
+    {.name = "compare",
+     .operands = "IMAGE REFERENCE",
+     .summary = "whether two pictures show the same",
+     .help =
+         "Compares two PNG pictures as golden check does: pixel by pixel in CIELAB, each with what is near the same\n"
+         "place in the other picture, so that a shift by one pixel does not count. They show the same if at most\n"
+         "0.0005 of all pixels differ visibly and at most 0.02 of those within the worst tile of 16 x 16. Of pictures\n"
+         "that assay drew, title and colour bar do not count. -o writes a picture of what differs.\n\n"
+         "  assay compare out/stress.png reference/stress.png -o difference.png\n"
+         "  assay compare mine.png reference.png --tolerance 0.002,0.1\n\n"
+         "Exit code: 0 they show the same; 1 they do not; 2 they cannot be compared, being of different size, or a\n"
+         "file is wrong.",
+     .takes = VERIFY_TAKES_PICTURE | VERIFY_TAKES_TOLERANCE,
+     .least = 2,
+     .most = 2,
+     .run = verify_command_compare},
     {.name = "bench",
      .operands = "SCENE",
      .summary = "what a particle-step costs, beside what the machine's memory allows",
@@ -131,6 +153,16 @@ static int refuse(const char *word)
     return verify_complain(&error);
 }
 
+/* The exit code, unless a disk was full behind a pipe or a redirection. */
+static int flushed(int code)
+{
+    if (fflush(stdout) != 0 || ferror(stdout) != 0) {
+        (void)fprintf(stderr, "assay: standard output could not be written\n");
+        return code == VERIFY_PASSED ? VERIFY_BAD_INPUT : code;
+    }
+    return code;
+}
+
 int main(int argc, char **argv)
 {
     if (argc < 2) {
@@ -147,6 +179,10 @@ int main(int argc, char **argv)
         (void)printf("assay %s\n", verify_version());
         return VERIFY_PASSED;
     }
+    if (strcmp(word, "--manual") == 0) {
+        verify_manual(stdout, commands, COMMANDS);
+        return flushed(VERIFY_PASSED);
+    }
     const struct verify_command *command = find(help ? argv[2] : word);
     if (command == NULL) {
         return refuse(help ? argv[2] : word);
@@ -160,10 +196,5 @@ int main(int argc, char **argv)
         verify_options_help(stdout, command);
         return VERIFY_PASSED;
     }
-    int code = command->run(&options);
-    if (fflush(stdout) != 0 || ferror(stdout) != 0) { /* a full disk behind a pipe or a redirection */
-        (void)fprintf(stderr, "assay: standard output could not be written\n");
-        return code == VERIFY_PASSED ? VERIFY_BAD_INPUT : code;
-    }
-    return code;
+    return flushed(command->run(&options));
 }

@@ -13,6 +13,8 @@
     ROW("P_all", "Pa", "first Piola-Kirchhoff stress, all components")                                                 \
     ROW("u", "m", "displacement, all components")                                                                      \
     ROW("F", "-", "deformation gradient less the identity, all components")                                            \
+    ROW("H", "-", "cofactor of F less the identity, all components")                                                   \
+    ROW("J", "-", "Jacobian less 1")                                                                                   \
     ROW("sigma", "Pa", "Cauchy stress, normal components")                                                             \
     ROW("sigma_all", "Pa", "Cauchy stress, all components")                                                            \
     ROW("v", "m/s", "velocity, all components")                                                                        \
@@ -48,7 +50,7 @@ _Static_assert(sizeof unit_table == VERIFY_ERRORS * sizeof *unit_table, "one uni
 _Static_assert(sizeof meaning_table == VERIFY_ERRORS * sizeof *meaning_table, "one meaning per error");
 
 const char verify_error_names[] =
-    "p, P, P_all, u, F, sigma, sigma_all, v, pressure, probes, probes_y, each also with _abs, _max, _abs_max or "
+    "p, P, P_all, u, F, H, J, sigma, sigma_all, v, pressure, probes, probes_y, each also with _abs, _max, _abs_max or "
     "_l1, all but those of probes also with snapshots_ before "
     "it, probes_nrmse, probes_y_nrmse, beside and beside_abs";
 
@@ -139,7 +141,7 @@ static enum verify_field field_of(size_t error)
 
 static bool is_of_deformation(enum verify_field field)
 {
-    return field == VERIFY_P || field == VERIFY_P_ALL || field == VERIFY_F;
+    return field == VERIFY_P || field == VERIFY_P_ALL || field == VERIFY_F || field == VERIFY_H;
 }
 
 bool verify_error_known(const struct solver_scene *scene, size_t error)
@@ -170,7 +172,8 @@ bool verify_error_applies(const struct solver_scene *scene, size_t error, const 
 enum verify_shape verify_field_shape(enum verify_field field)
 {
     bool vector = field == VERIFY_p || field == VERIFY_u || field == VERIFY_v;
-    return vector ? VERIFY_VECTOR : field == VERIFY_PRESSURE ? VERIFY_SCALAR : VERIFY_TENSOR;
+    bool scalar = field == VERIFY_PRESSURE || field == VERIFY_J;
+    return vector ? VERIFY_VECTOR : scalar ? VERIFY_SCALAR : VERIFY_TENSOR;
 }
 
 const char *verify_field_name(enum verify_field field)
@@ -187,13 +190,14 @@ size_t verify_field_take(enum verify_field field, const double *value, size_t ro
 {
     enum verify_shape shape = verify_field_shape(field);
     bool normal_only = field == VERIFY_P || field == VERIFY_SIGMA;
+    double shift = field == VERIFY_F || field == VERIFY_H || field == VERIFY_J ? 1.0 : 0.0;
     size_t width = 0, rows = shape == VERIFY_SCALAR ? 1 : dim, columns = shape == VERIFY_TENSOR ? dim : 1;
     for (size_t i = 0; i < rows; i++) {
         for (size_t j = 0; j < columns; j++) {
             if (shape != VERIFY_TENSOR) {
-                out[width++] = value[i];
+                out[width++] = value[i] - shift;
             } else if (!normal_only || i == j) {
-                out[width++] = value[i * row + j] - (field == VERIFY_F && i == j ? 1.0 : 0.0);
+                out[width++] = value[i * row + j] - (i == j ? shift : 0.0);
             }
         }
     }
@@ -203,7 +207,7 @@ size_t verify_field_take(enum verify_field field, const double *value, size_t ro
 size_t verify_field_exact(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
                           size_t dim, double out[9])
 {
-    double sigma[9], pressure;
+    double sigma[9], H[9], J, pressure;
     const double *value = field == VERIFY_p   ? state->p
                           : field == VERIFY_u ? state->u
                           : field == VERIFY_v ? state->v
@@ -213,6 +217,9 @@ size_t verify_field_exact(enum verify_field field, const struct oracle_kind *kin
         oracle_cauchy(kind, state, sigma);
         pressure = (sigma[0] + sigma[4] + sigma[8]) / 3;
         value = field == VERIFY_PRESSURE ? &pressure : sigma;
+    } else if (field == VERIFY_H || field == VERIFY_J) {
+        J = oracle_measures(kind->finite_strain, state->F, H);
+        value = field == VERIFY_J ? &J : H;
     }
     return verify_field_take(field, value, 3, dim, out);
 }
@@ -226,6 +233,8 @@ static const double *computed_at(enum verify_field field, const struct solver_ou
                        : field == VERIFY_v                                  ? output->v
                        : field == VERIFY_PRESSURE                           ? output->pressure
                        : field == VERIFY_F                                  ? output->F
+                       : field == VERIFY_H                                  ? output->H
+                       : field == VERIFY_J                                  ? output->J
                        : field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL ? output->sigma
                                                                             : output->P;
     enum verify_shape shape = verify_field_shape(field);

@@ -34,6 +34,8 @@ enum verify_field {
     VERIFY_P_ALL, /* all components of it */
     VERIFY_u,     /* displacement, all components */
     VERIFY_F,     /* F - I, all components: the deviation, since |F| itself is 1 and hides it */
+    VERIFY_H,     /* cofactor of F less the identity, all components */
+    VERIFY_J,     /* Jacobian less 1 */
     VERIFY_SIGMA, /* normal components of the Cauchy stress */
     VERIFY_SIGMA_ALL,
     VERIFY_v,        /* velocity, all components */
@@ -45,7 +47,7 @@ enum verify_field {
     VERIFY_STATE_FIELDS = VERIFY_PROBES /* those of a state at one time */
 };
 
-/* Errors have names: "p", "P", "P_all", "u", "F", "sigma", "sigma_all", "v", "pressure",
+/* Errors have names: "p", "P", "P_all", "u", "F", "H", "J", "sigma", "sigma_all", "v", "pressure",
  * "probes", "probes_y" are relative L2 norms; with "_abs" absolute L2, with "_max"
  * relative max, with "_abs_max" absolute max, with "_l1" relative L1. With "snapshots_" before the name of a state's
  * error, the largest of it over the scene's snapshots. "probes_nrmse" is probes_abs over the scene's

@@ -21,8 +21,11 @@ static const struct option options_table[] = {
     {"--levels", "-l", "N,N,...", "spacings along the reference length, increasing", VERIFY_TAKES_LEVELS},
     {"--json", "-j", "FILE", "write the result for programs", VERIFY_TAKES_JSON},
     {"--out", "-O", "DIR", "folder for the files written (default out/SCENE)", VERIFY_TAKES_OUT},
-    {"--output", "-o", "PNG", "the picture's file (default: the record's name with .png)", VERIFY_TAKES_PICTURE},
-    {"--dir", "-d", "DIR", "folder of the golden records (default: the source's golden/)", VERIFY_TAKES_DIR},
+    {"--output", "-o", "PNG", "the picture's file", VERIFY_TAKES_PICTURE},
+    {"--dir", "-d", "DIR", "folder of the golden records (default: the one that comes with the program)",
+     VERIFY_TAKES_DIR},
+    {"--tolerance", NULL, "ALL,TILE", "shares of pixels that may differ visibly, in all and within the worst tile",
+     VERIFY_TAKES_TOLERANCE},
     {"--oracle", NULL, "NAME", "the oracle that judges; assay list oracles shows them", VERIFY_TAKES_ORACLE},
     {"--param", "-p", "KEY=VALUE", "a parameter of the oracle, in SI units; may be repeated", VERIFY_TAKES_PARAM},
     {"--typical", NULL, NULL, "the oracle's typical values for parameters not given", VERIFY_TAKES_PARAM},
@@ -35,9 +38,12 @@ static const struct option options_table[] = {
     {"--grid", NULL, "RANGES", "X0:X1:N,Y0:Y1:N,...: N places from X0 to X1 along each axis [m]", VERIFY_TAKES_PLACES},
     {"--inside", NULL, NULL, "leave out places outside the body in place of refusing them", VERIFY_TAKES_PLACES},
     {"--output", "-o", "FILE", "FILE.h5 or FILE.csv (default: a table on standard output)", VERIFY_TAKES_TABLE},
+    {"--mutations", NULL, NULL, "no scene: what is told wrongly on purpose, and which gate notices",
+     VERIFY_TAKES_MUTATIONS},
     {"--help", "-h", NULL, "this text", 0},
 };
 enum { OPTIONS = sizeof options_table / sizeof *options_table };
+_Static_assert((int)OPTIONS <= (int)VERIFY_OPTIONS, "every option has its line");
 
 static bool takes(const struct verify_command *command, const struct option *option)
 {
@@ -125,6 +131,23 @@ static bool read_override(const struct verify_command *command, const char *text
         return bad(error, command, text, "too many --set (at most 63)");
     }
     options->override[options->override_count++] = text;
+    return true;
+}
+
+/* "5e-4,0.02": two shares. */
+static bool read_tolerance(const struct verify_command *command, const char *text, struct verify_options *options,
+                           struct solver_error *error)
+{
+    char *end = (char *)text;
+    for (int i = 0; i < 2; i++) {
+        const char *from = i == 0 ? text : end + 1;
+        options->tolerance[i] = strtod(from, &end);
+        if (end == from || *end != (i == 0 ? ',' : '\0') ||
+            !(options->tolerance[i] >= 0 && options->tolerance[i] <= 1)) {
+            return bad(error, command, text, "--tolerance wants two numbers from 0 to 1, as in 5e-4,0.02");
+        }
+    }
+    options->has_tolerance = true;
     return true;
 }
 
@@ -218,6 +241,11 @@ static bool apply(const struct verify_command *command, const struct option *opt
         return output(command, option, &options->picture, value, ".png", error);
     case VERIFY_TAKES_DIR:
         return once(command, option, &options->dir, value, error);
+    case VERIFY_TAKES_MUTATIONS:
+        options->mutations = true;
+        return true;
+    case VERIFY_TAKES_TOLERANCE:
+        return read_tolerance(command, value, options, error);
     default:
         return apply_to_judge(command, option, value, options, error);
     }
@@ -281,26 +309,40 @@ bool verify_options_parse(const struct verify_command *command, int count, char 
             return false;
         }
     }
-    if (!options->help && options->operand_count < command->least) {
+    if (options->mutations && options->operand_count + options->override_count + options->level_count > 0) {
+        return bad(error, command, "--mutations", "stands alone: it has scenes and oracles of its own");
+    }
+    if (!options->help && !options->mutations && options->operand_count < command->least) {
         return solver_fail(error, SOLVER_BAD_INPUT, "assay %s wants %s; see assay %s --help", command->name,
                            command->operands, command->name);
     }
     return true;
 }
 
+size_t verify_options_lines(const struct verify_command *command, struct verify_option_line line[VERIFY_OPTIONS])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < OPTIONS; i++) {
+        const struct option *option = &options_table[i];
+        if (takes(command, option)) {
+            (void)snprintf(line[count].words, sizeof line[count].words, "%s%s%s%s%s",
+                           option->short_name != NULL ? option->short_name : "",
+                           option->short_name != NULL ? ", " : "    ", option->name, option->value == NULL ? "" : " ",
+                           option->value == NULL ? "" : option->value);
+            line[count++].help = option->help;
+        }
+    }
+    return count;
+}
+
 void verify_options_help(FILE *file, const struct verify_command *command)
 {
     (void)fprintf(file, "usage: assay %s %s%s[options]\n\n%s\n\noptions:\n", command->name, command->operands,
                   command->operands[0] == '\0' ? "" : " ", command->help);
-    for (size_t i = 0; i < OPTIONS; i++) {
-        const struct option *option = &options_table[i];
-        if (takes(command, option)) {
-            char left[48];
-            (void)snprintf(left, sizeof left, "%s%s%s %s", option->short_name != NULL ? option->short_name : "",
-                           option->short_name != NULL ? ", " : "    ", option->name,
-                           option->value == NULL ? "" : option->value);
-            (void)fprintf(file, "  %-24s %s\n", left, option->help);
-        }
+    struct verify_option_line line[VERIFY_OPTIONS];
+    size_t count = verify_options_lines(command, line);
+    for (size_t i = 0; i < count; i++) {
+        (void)fprintf(file, "  %-24s %s\n", line[i].words, line[i].help);
     }
 }
 

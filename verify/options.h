@@ -35,6 +35,8 @@ enum verify_takes {
     VERIFY_TAKES_SPACING = 4096,
     VERIFY_TAKES_PLACES = 8192, /* --points FILE, --grid RANGES, --inside */
     VERIFY_TAKES_TABLE = 16384, /* --output FILE.h5 or FILE.csv */
+    VERIFY_TAKES_TOLERANCE = 32768,
+    VERIFY_TAKES_MUTATIONS = 65536, /* --mutations, in place of any word */
 };
 
 /* What an option that may be repeated was given, in order. */
@@ -50,12 +52,15 @@ struct verify_options {
     const char *override[VERIFY_OVERRIDES]; /* "KEY=value" */
     size_t level_count;                     /* 0: those of the scene */
     int level[SOLVER_LEVELS];
-    const char *json, *out, *picture, *dir;                        /* NULL where not given */
+    const char *json, *out, *picture, *dir; /* NULL where not given */
+    bool has_tolerance;
+    double tolerance[2];                                           /* shares of pixels: in all, within the worst tile */
     const char *oracle, *times, *spacings, *points, *grid, *table; /* NULL where not given */
     struct verify_list param, norm, gate, order;
     bool typical; /* the oracle's typical values in place of what is not given */
     bool inside;  /* places outside the body are left out */
     bool help;
+    bool mutations;
     char line[VERIFY_COMMAND_LINE]; /* the command line as typed, for the record */
 };
 
@@ -73,6 +78,14 @@ struct verify_command {
 /* Reads the words after the command's name. Errors (SOLVER_BAD_INPUT) name the word and suggest what was meant. */
 bool verify_options_parse(const struct verify_command *command, int count, char *const *words,
                           struct verify_options *options, struct solver_error *error);
+
+/* The options of a command, as help and manual show them; returns how many there are. */
+struct verify_option_line {
+    char words[48];   /* "-s, --set KEY=VALUE", or "    --oracle NAME" */
+    const char *help; /* one line */
+};
+enum { VERIFY_OPTIONS = 32 }; /* no command has more */
+size_t verify_options_lines(const struct verify_command *command, struct verify_option_line line[VERIFY_OPTIONS]);
 
 /* Usage line, help and options of one command. */
 void verify_options_help(FILE *file, const struct verify_command *command);

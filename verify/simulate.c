@@ -2,6 +2,7 @@
 
 #include "solver/record.h"
 #include "verify/files.h"
+#include "verify/manufactured.h"
 #include "verify/progress.h"
 #include "verify/truth.h"
 
@@ -55,27 +56,67 @@ static void start_of(const void *context, const double X[3], double u[3], double
     memcpy(F, state.F, sizeof state.F);
 }
 
+/* What drives the body, and the scene whose faces say how. */
+struct drive {
+    struct verify_truth truth;
+    const struct solver_scene *scene;
+};
+
+/* Velocity or traction on a face, by the state there; the body force of a manufactured solution. */
+static void drive_of(const void *context, enum solver_formula formula, const double X[3], double t, double value[3])
+{
+    const struct drive *drive = context;
+    const struct verify_truth *truth = &drive->truth;
+    if (formula == SOLVER_BODY_FORCE) {
+        verify_body_force(truth->kind, truth->oracle, X, t, value);
+        return;
+    }
+    struct oracle_state state;
+    int face = (int)(formula - SOLVER_FACE_X0) % SOLVER_FACES;
+    truth->kind->state(truth->oracle, X, t, &state);
+    if (formula <= SOLVER_FACE_Z1 && drive->scene->face[face] != SOLVER_TRACTION) {
+        memcpy(value, state.v, sizeof state.v);
+        return;
+    }
+    for (int i = 0; i < 3; i++) {
+        value[i] = (face % 2 == 1 ? 1 : -1) * state.P[3 * i + face / 2];
+    }
+}
+
+static void release(void *context)
+{
+    struct drive *drive = context;
+    verify_truth_free(&drive->truth);
+    free(drive);
+}
+
 bool verify_run_create(struct solver_scene *scene, struct solver_run **run, struct solver_error *error)
 {
-    if (strcmp(scene->initial_from, "oracle") != 0) {
+    bool starts = strcmp(scene->initial_from, "oracle") == 0;
+    bool drives = strcmp(scene->loads_from, "oracle") == 0;
+    if (!starts && !drives) {
         return solver_run_create(scene, run, error);
     }
     *run = NULL;
-    struct verify_truth *truth = calloc(1, sizeof *truth);
-    if (truth == NULL) {
+    struct drive *drive = calloc(1, sizeof *drive);
+    if (drive == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the oracle");
     }
     size_t told = scene->oracle_told_count;
     scene->oracle_told_count = 0;
-    bool done = verify_truth_create(scene, truth, error);
+    bool done = verify_truth_create(scene, &drive->truth, error);
     scene->oracle_told_count = told;
-    if (done) {
-        solver_scene_start_from(scene, start_of, truth);
-        done = solver_run_create(scene, run, error);
-        solver_scene_start_from(scene, NULL, NULL);
-        verify_truth_free(truth);
+    if (!done) {
+        free(drive);
+        return false;
     }
-    free(truth);
+    drive->scene = scene;
+    if (starts) {
+        solver_scene_start_from(scene, start_of, &drive->truth);
+    }
+    solver_scene_drive_from(scene, drives ? drive_of : NULL, drive, release); /* the scene's from here on */
+    done = solver_run_create(scene, run, error);
+    solver_scene_start_from(scene, NULL, NULL);
     return done;
 }
 

@@ -1,5 +1,6 @@
 #include "verify/truth.h"
 
+#include "verify/manufactured.h"
 #include "verify/suggest.h"
 
 #include <math.h>
@@ -44,6 +45,14 @@ static bool find_kind(const struct solver_scene *scene, const struct oracle_kind
                            scene->path);
     }
     *kind = oracle_find(scene->oracle);
+    if (*kind == NULL) {
+        *kind = verify_manufactured_find(scene->oracle, scene->material_model, scene->dim);
+    }
+    if (*kind != NULL && verify_is_manufactured(*kind) && solver_scene_has(scene, SOLVER_MATERIAL_AT)) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: oracle: \"%s\" is of a body of one material, and the scene has material.at",
+                           scene->path, scene->oracle);
+    }
     if (*kind == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT,
                            "%s: oracle: there is no oracle \"%s\"; assay list shows those there are", scene->path,
@@ -176,7 +185,7 @@ static bool find_named(const char *name, const struct oracle_kind **kind, struct
 {
     const char *names[256];
     size_t count = 0;
-    *kind = name != NULL ? oracle_find(name) : NULL;
+    *kind = name != NULL ? verify_kind_find(name) : NULL;
     for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL && count < sizeof names / sizeof *names; k++) {
         names[count++] = (*k)->name;
     }

@@ -18,9 +18,9 @@ sources() { find "$@" -name '*.[ch]' -print0 | xargs -0r grep -nHE "$pattern" ||
 
 # Written so that this file does not find itself.
 pattern='-f''fast-math|-O''fast|-f''unsafe-math|-f''associative-math'
-refuse "gives up reproducible arithmetic" < <(grep -rnE -e "$pattern" "${rooms[@]}" tests CMakeLists.txt CMakePresets.json go || true)
+refuse "gives up reproducible arithmetic" < <(grep -rnE -e "$pattern" "${rooms[@]}" tests examples cmake CMakeLists.txt CMakePresets.json go || true)
 pattern='TO''DO|FIX''ME|XX''X|HA''CK'
-refuse "is left open" < <(grep -rnwE -e "$pattern" "${rooms[@]}" tests CMakeLists.txt go .ci || true)
+refuse "is left open" < <(grep -rnwE -e "$pattern" "${rooms[@]}" tests examples cmake CMakeLists.txt go .ci || true)
 
 # Only verify/ prints and exits; snprintf and writing to a file of one's own are fine.
 pattern='\<(v?printf|puts|putchar|perror|exit|_exit|_Exit|quick_exit|abort|assert)[[:space:]]*\(|\<(stdout|stderr)\>'
@@ -41,5 +41,5 @@ includes verify '(verify|golden|render|oracles|solver)/[^"/]+'
 # In a checkout only what is tracked counts: people may keep records of their own beside it.
 tracked() { git ls-files -z 2>/dev/null || find . -path ./build -prune -o -type f -print0; }
 refuse "is larger than 1 MiB" < <(tracked | xargs -0r stat -c '%s %n' -- 2>/dev/null | awk '$1 > 1048576 { sub(/^[0-9]+ /, ""); print }')
-refuse "has more than 500 lines" < <(find "${rooms[@]}" tests -name '*.[ch]' -print0 | xargs -0r awk 'FNR == 501 { print FILENAME }')
+refuse "has more than 500 lines" < <(find "${rooms[@]}" tests examples -name '*.[ch]' -print0 | xargs -0r awk 'FNR == 501 { print FILENAME }')
 exit $found

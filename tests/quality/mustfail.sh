@@ -11,7 +11,7 @@ wrong=0
 # A tree that passes, to be spoilt by one file at a time.
 fresh() {
   rm -rf -- "$scratch/tree"
-  mkdir -p "$scratch/tree"/{solver,oracles,render,golden,verify,tests,.ci}
+  mkdir -p "$scratch/tree"/{solver,oracles,render,golden,verify,tests,examples,cmake,.ci}
   cp -- "$source/.clang-format" "$source/.clang-tidy" "$scratch/tree"
   (cd -- "$scratch/tree" && touch CMakeLists.txt CMakePresets.json go)
   echo 'int solver_one(void);' >"$scratch/tree/solver/one.h"
@@ -36,6 +36,7 @@ expect() {
 }
 expect 0 format "a formatted tree" solver/one.c ''
 expect 1 format "a misplaced brace" solver/one.c 'int f(void) {\n return 1; }\n'
+expect 1 format "a misplaced brace in an example" examples/a.c 'int f(void) {\n return 1; }\n'
 expect 0 tidy "a clean tree" solver/one.c ''
 expect 1 tidy "a use of freed memory" solver/one.c \
   '#include <stdlib.h>\nint f(void)\n{\n    int *p = calloc(1, 4);\n    free(p);\n    return p ? *p : 0;\n}\n'
@@ -46,6 +47,7 @@ expect 0 forbidden "verify that prints" verify/a.c '#include "oracles/oracle.h"\
 expect 0 forbidden "golden that reads records" golden/a.c '#include "solver/record.h"\n'
 expect 1 forbidden "fast arithmetic" CMakeLists.txt 'add_compile_options(-f''fast-math)\n'
 expect 1 forbidden "work left open" oracles/a.c '// TO''DO: the rest\n'
+expect 1 forbidden "an example left open" examples/a.c '// TO''DO: the rest\n'
 expect 1 forbidden "a solver that prints" solver/a.c 'int a = printf("");\n'
 expect 1 forbidden "an oracle that writes to stderr" oracles/a.c 'int a = fputs("", stderr);\n'
 expect 1 forbidden "a renderer that aborts" render/a.c 'void a(void) { abort(); }\n'

@@ -4,7 +4,7 @@
 set -euo pipefail
 source=$1 build=$2
 cd -- "$source"
-mapfile -d '' -t files < <(find solver oracles render golden verify tests -name '*.c' -print0)
+mapfile -d '' -t files < <(find solver oracles render golden verify tests examples -name '*.c' -print0)
 ((${#files[@]})) || { echo "no C files under $PWD"; exit 1; }
 for file in "${files[@]}"; do
   grep -qF "\"file\": \"$source/$file\"" "$build/compile_commands.json" || { echo "$file is not compiled"; exit 1; }

@@ -53,20 +53,7 @@ static inline void expect(const struct sample *sample, const char *what, double 
 /* The cofactor and Jacobian that belong to F: linearised where the material is. */
 static inline void measures(const struct sample *sample, const double *F, double *H, double *J)
 {
-    size_t dim = sample->dim;
-    if (!sample->material->linear) {
-        cofactor_of(dim, F, H);
-        *J = determinant_of(dim, F);
-        return;
-    }
-    *J = 1.0;
-    for (size_t i = 0; i < dim; i++) {
-        *J += F[i * dim + i] - 1.0;
-    }
-    for (size_t i = 0; i < dim * dim; i++) {
-        size_t transposed = i % dim * dim + i / dim;
-        H[i] = i == transposed ? *J - (F[i] - 1.0) : -F[transposed];
-    }
+    measures_of(sample->material->linear, sample->dim, F, H, J);
 }
 
 static inline double energy(const struct sample *sample, const double *F)

@@ -3,6 +3,7 @@
 #define TESTS_RANDOM_TENSORS_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -120,6 +121,24 @@ static inline double determinant_of(size_t dim, const double *F)
     return J;
 }
 
+/* Cofactor and Jacobian of F, or their linearisation about F = I. */
+static inline void measures_of(bool linear, size_t dim, const double *F, double *H, double *J)
+{
+    if (!linear) {
+        cofactor_of(dim, F, H);
+        *J = determinant_of(dim, F);
+        return;
+    }
+    *J = 1.0;
+    for (size_t i = 0; i < dim; i++) {
+        *J += F[i * dim + i] - 1.0;
+    }
+    for (size_t i = 0; i < dim * dim; i++) {
+        size_t transposed = i % dim * dim + i / dim;
+        H[i] = i == transposed ? *J - (F[i] - 1.0) : -F[transposed];
+    }
+}
+
 static inline double largest_entry(size_t count, const double *values)
 {
     double largest = 0.0;
@@ -127,6 +146,12 @@ static inline double largest_entry(size_t count, const double *values)
         largest = fmax(largest, fabs(values[i]));
     }
     return largest;
+}
+
+/* Keeps the larger of two, and a NaN, which fmax would lose. */
+static inline void keep_larger(double *largest, double next)
+{
+    *largest = isnan(*largest) || *largest >= next ? *largest : next;
 }
 
 /* Largest difference; NaN if any entry is. */

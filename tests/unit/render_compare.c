@@ -2,6 +2,7 @@
 #include "render/image.h"
 #include "tests/unit/unit.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -99,6 +100,19 @@ static void small_differences_of_colour(void)
     render_image_free(far);
 }
 
+/* Each share has a bound of its own; at the bound they still show the same, and a NaN shows nothing. */
+static void within_a_tolerance(void)
+{
+    const struct render_tolerance limit = {.fraction = 0.25, .worst_tile = 0.5};
+    CU_ASSERT_TRUE(render_within(&(struct render_difference){.fraction = 0.25, .worst_tile = 0.5}, limit));
+    CU_ASSERT_FALSE(render_within(&(struct render_difference){.fraction = 0.26, .worst_tile = 0.5}, limit));
+    CU_ASSERT_FALSE(render_within(&(struct render_difference){.fraction = 0.25, .worst_tile = 0.51}, limit));
+    CU_ASSERT_FALSE(render_within(&(struct render_difference){.fraction = NAN, .worst_tile = 0}, limit));
+    /* What assay compare --help says. */
+    CU_ASSERT_EQUAL(render_tolerance_default.fraction, 0.0005);
+    CU_ASSERT_EQUAL(render_tolerance_default.worst_tile, 0.02);
+}
+
 static void the_difference_is_shown(void)
 {
     struct render_image *stored = blank(), *fresh = blank();
@@ -150,6 +164,7 @@ int main(void)
         {"outside the rectangle nothing counts", outside_the_rectangle_nothing_counts},
         {"shifts and thin lines", shifts_and_thin_lines},
         {"small differences of colour", small_differences_of_colour},
+        {"within a tolerance", within_a_tolerance},
         {"the difference is shown", the_difference_is_shown},
         {"what cannot be compared is refused", what_cannot_be_compared_is_refused},
     };

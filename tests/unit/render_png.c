@@ -169,6 +169,70 @@ static void foreign_pictures_are_refused(void)
     refuses("absent.png", "No such file");
 }
 
+/* Reads any PNG, of which every byte of every pixel and the rectangle are then checked. */
+static void taken(const char *name, uint8_t level)
+{
+    struct render_image *image = NULL;
+    char why[RENDER_WHY] = "";
+    CU_ASSERT_TRUE_FATAL(render_png_read_any(in_folder(name), &image, why));
+    const int whole[4] = {0, 0, 20, 12};
+    CU_ASSERT_TRUE_FATAL(image->width == 20 && image->height == 12);
+    CU_ASSERT_EQUAL(memcmp(image->body, whole, sizeof whole), 0);
+    int wrong = 0;
+    for (int i = 0; i < 3 * 20 * 12; i++)
+        wrong += image->rgb[i] != level;
+    CU_ASSERT_EQUAL(wrong, 0);
+    render_image_free(image);
+}
+
+static void any_picture_can_be_taken(void)
+{
+    foreign("plain.png", 20, 12, PNG_COLOR_TYPE_RGB, 8, NULL);
+    taken("plain.png", 0);
+    foreign("grey.png", 20, 12, PNG_COLOR_TYPE_GRAY, 8, NULL);
+    taken("grey.png", 0);
+    foreign("deep.png", 20, 12, PNG_COLOR_TYPE_RGB, 16, NULL);
+    taken("deep.png", 0);
+    foreign("clear.png", 20, 12, PNG_COLOR_TYPE_RGB_ALPHA, 8, NULL);
+    taken("clear.png", 255); /* nothing but transparent pixels: the white behind them */
+    struct render_image *own = sample(), *back = NULL;
+    char why[RENDER_WHY] = "";
+    CU_ASSERT_TRUE_FATAL(render_png_write(in_folder("own.png"), own, why));
+    CU_ASSERT_TRUE_FATAL(render_png_read_any(in_folder("own.png"), &back, why));
+    CU_ASSERT_EQUAL(memcmp(back->body, own->body, sizeof own->body), 0);
+    CU_ASSERT_EQUAL(memcmp(back->rgb, own->rgb, 40 * 30 * 3), 0);
+    render_image_free(own);
+    render_image_free(back);
+}
+
+static void not_any_picture(const char *name, const char *expected)
+{
+    struct render_image *image = NULL;
+    char why[RENDER_WHY] = "";
+    CU_ASSERT_FALSE(render_png_read_any(in_folder(name), &image, why));
+    CU_ASSERT_PTR_NULL(image);
+    CU_ASSERT_PTR_NOT_NULL(strstr(why, name));
+    CU_ASSERT_PTR_NOT_NULL(strstr(why, expected));
+}
+
+static void what_is_no_picture_is_refused(void)
+{
+    static uint8_t bytes[1 << 16];
+    put("text.png", "not a picture", 13);
+    not_any_picture("text.png", "not a whole PNG");
+    put("empty.png", "", 0);
+    not_any_picture("empty.png", "not a whole PNG");
+    foreign("wide.png", RENDER_MOST + 1, 2, PNG_COLOR_TYPE_RGB, 8, NULL);
+    not_any_picture("wide.png", "4096 pixels a side");
+    foreign("whole.png", 20, 12, PNG_COLOR_TYPE_GRAY, 16, NULL);
+    const size_t size = take("whole.png", bytes, sizeof bytes);
+    for (size_t cut = 0; cut + 12 < size; cut++) { /* the last 12 bytes say no more than that it ends */
+        put("cut.png", bytes, cut);
+        not_any_picture("cut.png", "not a whole PNG");
+    }
+    not_any_picture("absent.png", "No such file");
+}
+
 static void failed_writing_leaves_nothing_behind(void)
 {
     struct render_image *image = sample();
@@ -220,6 +284,8 @@ int main(void)
         {"a picture returns as it was", returns_as_it_was},
         {"damage is refused", damage_is_refused},
         {"foreign pictures are refused", foreign_pictures_are_refused},
+        {"any picture can be taken", any_picture_can_be_taken},
+        {"what is no picture is refused", what_is_no_picture_is_refused},
         {"failed writing leaves nothing behind", failed_writing_leaves_nothing_behind},
         {"a full disk leaves the old file", a_full_disk_leaves_the_old_file},
     };

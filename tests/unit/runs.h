@@ -42,8 +42,8 @@ struct sample {
     struct solver_error error;
 };
 
-/* The block with `more` appended and overrides KEY=VALUE, separated by blanks. On failure run is NULL. */
-static inline struct sample try_start(const char *more, const char *format, va_list arguments)
+/* The scene alone: the block with `more` appended and overrides KEY=VALUE, separated by blanks. */
+static inline struct sample load_scene(const char *more, const char *format, va_list arguments)
 {
     struct sample sample = {.run = NULL};
     char path[] = "/tmp/assay-run-XXXXXX";
@@ -67,6 +67,13 @@ static inline struct sample try_start(const char *more, const char *format, va_l
         CU_FAIL_FATAL("the scene is refused");
     }
     unlink(path);
+    return sample;
+}
+
+/* On failure run is NULL. */
+static inline struct sample try_start(const char *more, const char *format, va_list arguments)
+{
+    struct sample sample = load_scene(more, format, arguments);
     (void)solver_run_create(sample.scene, &sample.run, &sample.error);
     return sample;
 }
@@ -150,6 +157,24 @@ static inline void expect_below(const char *what, double value, double bound)
         printf("\n    %s: %.3e > %.1e", what, value, bound);
     }
     CU_ASSERT(holds);
+}
+
+/* The words of a list, separated by blanks, but for one; false if there is no such word. */
+static inline bool without_word(const char *words, size_t left_out, char *out, size_t room)
+{
+    bool found = false;
+    size_t used = 0;
+    out[0] = '\0';
+    for (size_t i = 0; *words != '\0'; i++) {
+        size_t length = strcspn(words, " ");
+        found = found || i == left_out;
+        if (i != left_out) {
+            used += (size_t)snprintf(out + used, room - used, "%s%.*s", used > 0 ? " " : "", (int)length, words);
+        }
+        CU_ASSERT_FATAL(used < room);
+        words += length + strspn(words + length, " ");
+    }
+    return found;
 }
 
 #endif

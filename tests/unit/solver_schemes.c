@@ -216,29 +216,6 @@ static void test_patch(void)
     }
 }
 
-/* A free body keeps its linear momentum. Tension control, as printed, does not keep it and is left out. */
-static void test_momentum(void)
-{
-    char text[1024];
-    (void)snprintf(text, sizeof text, "%s%s", hooke, smooth_motion);
-    for (const struct solver_scheme *const *entry = solver_schemes(); *entry != NULL; entry++) {
-        for (size_t dim = 1; dim <= 3; dim++) {
-            struct sample sample =
-                start(text, "dim=%zu n=5 scheme=%s support=2.4 ulsph.tension=none", dim, (*entry)->name);
-            advance_to(&sample, 2.0);
-            const struct solver_history *history = solver_run_history(sample.run);
-            const struct solver_totals *first = &history->totals[0];
-            const struct solver_totals *last = &history->totals[history->count - 1];
-            CU_ASSERT(last->strain > 1e-4 * first->kinetic);
-            for (size_t i = 0; i < 3; i++) {
-                double change = fabs(last->linear[i] - first->linear[i]);
-                expect_below((*entry)->name, change / fabs(first->linear[0]), 1e-13);
-            }
-            finish(&sample);
-        }
-    }
-}
-
 /* Far beyond the stable step a run ends with an error that says what to try, and shows its last good state. */
 static void test_breakdown(void)
 {
@@ -267,7 +244,6 @@ int main(void)
         {"rigid rotation", test_rigid_rotation},
         {"small strain", test_small_strain},
         {"patch of a constant velocity gradient", test_patch},
-        {"linear momentum", test_momentum},
         {"breakdown", test_breakdown},
     };
     return unit_main("schemes", tests, sizeof tests / sizeof *tests);

@@ -56,7 +56,7 @@ static bool degrees_hold(const struct solver_stencil_builder *builder, bool gene
 static bool claims_hold(const struct solver_stencil_builder *builder, bool general,
                         const struct stencil_properties *found)
 {
-    bool conserves = builder->antisymmetric && builder->closed;
+    bool conserves = solver_stencil_keeps_constant_stress(builder);
     return degrees_hold(builder, general, found) &&
            (builder->antisymmetric ? found->antisymmetry == 0.0 : found->antisymmetry > missing) &&
            (builder->closed ? found->closure <= exact : found->closure > missing) &&

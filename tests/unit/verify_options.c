@@ -112,6 +112,29 @@ static void long_line(void)
     CU_ASSERT_EQUAL(strlen(options.line), VERIFY_COMMAND_LINE - 1);
 }
 
+static bool parse_tolerance(const char *text)
+{
+    static const struct verify_command compare = {.name = "compare", .takes = VERIFY_TAKES_TOLERANCE, .most = 2};
+    char word[64];
+    (void)snprintf(word, sizeof word, "--tolerance=%s", text);
+    error = (struct solver_error){.code = SOLVER_OK};
+    return verify_options_parse(&compare, 1, (char *[]){word, NULL}, &options, &error);
+}
+
+static void tolerances(void)
+{
+    CU_ASSERT_TRUE_FATAL(parse_tolerance("5e-4,0.02"));
+    CU_ASSERT_TRUE(options.has_tolerance);
+    CU_ASSERT_EQUAL(options.tolerance[0], 5e-4);
+    CU_ASSERT_EQUAL(options.tolerance[1], 0.02);
+    CU_ASSERT_TRUE(parse_tolerance("0,1"));
+    static const char *const wrong[] = {"",      "0.1",    "0.1,",  ",0.1", "0.1,0.2,0.3",
+                                        "0.1,2", "-0.1,0", "nan,0", "0;1",  "x"};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        refused(parse_tolerance(wrong[i]), "two numbers from 0 to 1");
+    }
+}
+
 static void suggestions(void)
 {
     static const char *const names[] = {"run", "verify", "render", "golden"};
@@ -142,7 +165,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"accepted", accepted},       {"unknown options", unknown_options}, {"wrong levels", wrong_levels},
         {"wrong words", wrong_words}, {"too many overrides", too_many},     {"a very long line", long_line},
-        {"suggestions", suggestions}, {"exit codes", exit_codes},
+        {"suggestions", suggestions}, {"exit codes", exit_codes},           {"tolerances", tolerances},
     };
     return unit_main("options", tests, sizeof tests / sizeof *tests);
 }

@@ -1,0 +1,83 @@
+/* Where the program finds what comes with it. */
+#include "tests/unit/unit.h"
+#include "verify/find.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* An installed tree, which is then moved. */
+static char root[] = "/tmp/assay-find-XXXXXX";
+
+static const char *in_root(const char *name)
+{
+    static char path[4][VERIFY_PATH];
+    static int turn;
+    turn = (turn + 1) % 4;
+    (void)snprintf(path[turn], VERIFY_PATH, "%s/%s", root, name);
+    return path[turn];
+}
+
+static void beside_the_program(void)
+{
+    char folder[VERIFY_PATH];
+    CU_ASSERT_TRUE_FATAL(verify_folder_installed(VERIFY_FOLDER_SCENES, in_root("a/bin/assay"), folder));
+    CU_ASSERT_STRING_EQUAL(folder, in_root("a/share/assay/scenes"));
+    CU_ASSERT_FALSE(verify_folder_installed(VERIFY_FOLDER_GOLDEN, in_root("a/bin/assay"), folder)); /* not there */
+}
+
+static void wherever_it_is_moved_to(void)
+{
+    char folder[VERIFY_PATH];
+    CU_ASSERT_EQUAL_FATAL(rename(in_root("a"), in_root("b")), 0);
+    CU_ASSERT_TRUE(verify_folder_installed(VERIFY_FOLDER_SCENES, in_root("b/bin/assay"), folder));
+    CU_ASSERT_STRING_EQUAL(folder, in_root("b/share/assay/scenes"));
+    CU_ASSERT_FALSE(verify_folder_installed(VERIFY_FOLDER_SCENES, in_root("a/bin/assay"), folder));
+    CU_ASSERT_EQUAL_FATAL(rename(in_root("b"), in_root("a")), 0);
+}
+
+/* From there ../share is reached as well, but it is no folder of programs. */
+static void not_from_a_build_tree(void)
+{
+    char folder[VERIFY_PATH];
+    CU_ASSERT_FALSE(verify_folder_installed(VERIFY_FOLDER_SCENES, in_root("a/build/assay"), folder));
+    CU_ASSERT_FALSE(verify_folder_installed(VERIFY_FOLDER_SCENES, in_root("a/cabin/assay"), folder));
+    CU_ASSERT_FALSE(verify_folder_installed(VERIFY_FOLDER_SCENES, "assay", folder));
+    CU_ASSERT_FALSE(verify_folder_installed(VERIFY_FOLDER_SCENES, "", folder));
+}
+
+static void in_the_source_tree(void)
+{
+    char folder[VERIFY_PATH];
+    verify_folder_find(VERIFY_FOLDER_SCENES, folder);
+    CU_ASSERT_STRING_EQUAL(folder, TEST_SOURCE_DIR "/verify/scenes");
+    verify_folder_find(VERIFY_FOLDER_GOLDEN, folder);
+    CU_ASSERT_STRING_EQUAL(folder, TEST_SOURCE_DIR "/golden");
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"beside the program", beside_the_program},
+        {"wherever it is moved to", wherever_it_is_moved_to},
+        {"not from a build tree", not_from_a_build_tree},
+        {"in the source tree", in_the_source_tree},
+    };
+    char made[VERIFY_PATH];
+    if (mkdtemp(root) == NULL || realpath(root, made) == NULL || strcmp(made, root) != 0) {
+        return 1;
+    }
+    static const char *const folders[] = {
+        "a", "a/bin", "a/cabin", "a/build", "a/share", "a/share/assay", "a/share/assay/scenes"};
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+        if (mkdir(in_root(folders[i]), 0777) != 0) {
+            return 1;
+        }
+    }
+    const int result = unit_main("find", tests, sizeof tests / sizeof *tests);
+    char command[VERIFY_PATH + 16];
+    (void)snprintf(command, sizeof command, "rm -rf %s", root);
+    return system(command) == 0 ? result : 1;
+}

@@ -1,0 +1,230 @@
+/* The cases of the suite: every scheme, stencil, evolved set and material of the solver's tables, with every kind of
+ * boundary data, in every dimension. A new member of a table is a new case. */
+#include "solver/integrator.h"
+#include "solver/material.h"
+#include "solver/stencil.h"
+#include "verify/mms.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct list {
+    struct verify_mms_case *cases;
+    size_t count, room;
+    bool full; /* no memory */
+};
+
+static struct verify_mms_case *append(struct list *list, const struct verify_mms_case *fresh)
+{
+    static struct verify_mms_case nowhere;
+    if (list->count == list->room) {
+        size_t room = 2 * list->room + 64;
+        struct verify_mms_case *grown = realloc(list->cases, room * sizeof *grown);
+        if (grown == NULL) {
+            list->full = true;
+            nowhere = *fresh;
+            return &nowhere;
+        }
+        list->cases = grown;
+        list->room = room;
+    }
+    list->cases[list->count] = *fresh;
+    return &list->cases[list->count++];
+}
+
+static __attribute__((format(printf, 2, 3))) void set(struct verify_mms_case *which, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(which->setting[which->setting_count++], VERIFY_MMS_TEXT, format, arguments);
+    va_end(arguments);
+}
+
+static const char *const boundaries[] = {"motion", "traction", "roller"};
+enum { BOUNDARIES = 3 };
+
+static void set_faces(struct verify_mms_case *which, int dim, const char *kind)
+{
+    for (int face = 0; face < 2 * dim; face++) {
+        set(which, "faces.%c%d=%s", "XYZ"[face / 2], face % 2, kind);
+    }
+}
+
+/* What a stencil claims in space: the order of what it does at the boundary, and one more where that is within. One
+ * whose pair vectors are not closed claims none. */
+static void claim(struct verify_mms_case *which, const struct solver_stencil_builder *stencil)
+{
+    if (stencil->closed && stencil->boundary >= 2) {
+        which->asked_p = which->asked = 2.8;
+    } else if (stencil->closed) {
+        which->asked_p = 1.9;
+        which->asked = 1.8;
+    }
+}
+
+struct upwind {
+    const struct solver_stencil_builder *stencil;
+    const char *evolved, *material;
+    int dim, boundary;
+};
+
+static struct verify_mms_case *add_upwind(struct list *list, const char *family, const char *scene, struct upwind of)
+{
+    struct verify_mms_case *which = append(list, &(struct verify_mms_case){.family = family, .scene = scene});
+    (void)snprintf(which->name, sizeof which->name, "%-6s %-4s %-22s %-8s", of.stencil->name, of.evolved, of.material,
+                   boundaries[of.boundary]);
+    set(which, "dim=%d", of.dim);
+    set(which, "stencil=%s", of.stencil->name);
+    set(which, "evolved=%s", of.evolved);
+    set(which, "material.model=%s", of.material);
+    set_faces(which, of.dim, boundaries[of.boundary]);
+    claim(which, of.stencil);
+    return which;
+}
+
+static const char *const evolved_sets[] = {"pF", "pFJ", "pFHJ"};
+enum { EVOLVED_SETS = 3 };
+
+/* Everything with everything, in the plane; in a line what differs there. */
+static void add_large_strain(struct list *list)
+{
+    for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
+        for (const struct solver_material_model *m = solver_material_models(); m->name != NULL; m++) {
+            for (int e = 0; e < EVOLVED_SETS; e++) {
+                for (int b = 0; b < BOUNDARIES; b++) {
+                    struct upwind of = {s, evolved_sets[e], m->name, 2, b};
+                    struct verify_mms_case *which = add_upwind(list, "large strain, 2D", "manufactured", of);
+                    which->level[0] = 24;
+                    which->level[1] = 48;
+                }
+            }
+            for (int b = 0; b < BOUNDARIES - 1; b++) { /* in a line a roller is a moved face */
+                struct upwind of = {s, "pFJ", m->name, 1, b};
+                struct verify_mms_case *which = add_upwind(list, "large strain, 1D", "manufactured", of);
+                which->level[0] = 32;
+                which->level[1] = 64;
+            }
+        }
+    }
+}
+
+static void add_large_strain_3d(struct list *list)
+{
+    for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
+        for (int b = 0; b < BOUNDARIES; b++) {
+            struct upwind of = {s, "pFHJ", "neo-hookean", 3, b};
+            struct verify_mms_case *which = add_upwind(list, "large strain, 3D", "manufactured", of);
+            which->level[0] = 12;
+            which->level[1] = 18;
+        }
+    }
+}
+
+static void add_perturbed(struct list *list)
+{
+    for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
+        for (int b = 0; !s->lattice_only && b < BOUNDARIES; b++) {
+            struct upwind of = {s, "pFHJ", "neo-hookean", 2, b};
+            struct verify_mms_case *which = add_upwind(list, "large strain, 2D, perturbed by 15 %", "manufactured", of);
+            set(which, "perturb=0.15");
+            which->level[0] = 24;
+            which->level[1] = 48;
+        }
+    }
+}
+
+static void add_isochoric(struct list *list)
+{
+    for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
+        for (int e = 0; e < EVOLVED_SETS; e++) {
+            for (int b = 0; b < BOUNDARIES; b++) {
+                struct upwind of = {s, evolved_sets[e], "neo-hookean", 2, b};
+                struct verify_mms_case *which =
+                    add_upwind(list, "volumes kept, 2D, nu = 0.4999", "manufactured-isochoric", of);
+                which->level[0] = 24;
+                which->level[1] = 48;
+            }
+        }
+    }
+}
+
+static void add_waves(struct list *list)
+{
+    for (int dim = 1; dim <= 3; dim++) {
+        for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
+            for (int b = 0; b < (dim == 1 ? BOUNDARIES - 1 : BOUNDARIES); b++) {
+                static const char *const family[] = {"small waves, 1D", "small waves, 2D", "small waves, 3D"};
+                struct upwind of = {s, "pF", "linear-elastic", dim, b};
+                struct verify_mms_case *which = add_upwind(list, family[dim - 1], "manufactured-waves", of);
+                which->level[0] = dim == 3 ? 12 : 24;
+                which->level[1] = dim == 3 ? 18 : 48;
+            }
+        }
+    }
+}
+
+/* The updated-Lagrangian scheme has no P, and its law is one of rates: it is Hooke's at small strain. */
+static void add_ulsph(struct list *list)
+{
+    static const char *const tension[] = {"none", "control"};
+    for (int dim = 1; dim <= 2; dim++) {
+        for (int b = 0; b < 2; b++) {
+            for (int t = 0; t < 2; t++) {
+                struct verify_mms_case *which =
+                    append(list, &(struct verify_mms_case){.family = dim == 1 ? "small waves, 1D, updated Lagrangian"
+                                                                              : "small waves, 2D, updated Lagrangian",
+                                                           .scene = "manufactured-waves"});
+                (void)snprintf(which->name, sizeof which->name, "ulsph, tension %-8s %-14s %-8s", tension[t], "",
+                               boundaries[b]);
+                set(which, "dim=%d", dim);
+                set(which, "scheme=ulsph");
+                set(which, "ulsph.tension=%s", tension[t]);
+                set(which, "integrator=tvd-rk2");
+                set(which, "support=2.4");
+                set_faces(which, dim, boundaries[b]);
+                which->level[0] = 24;
+                which->level[1] = 48;
+            }
+        }
+    }
+}
+
+/* Order in time of every integrator, with every kind of boundary data. */
+static void add_time(struct list *list)
+{
+    for (const struct solver_integrator *i = solver_integrators(); i->name != NULL; i++) {
+        for (int b = 0; b < BOUNDARIES; b++) {
+            struct upwind of = {solver_stencil_find("sbp2"), "pFHJ", "neo-hookean", 2, b};
+            struct verify_mms_case *which = add_upwind(list, "in time, large strain, 2D, n = 16", "manufactured", of);
+            (void)snprintf(which->name, sizeof which->name, "%-8s order %d %-20s %-8s", i->name, i->order, "",
+                           boundaries[b]);
+            set(which, "integrator=%s", i->name);
+            which->level[0] = 2;
+            which->level[1] = 4;
+            which->asked_p = which->asked = i->order - 0.15;
+            which->in_time = true;
+        }
+    }
+}
+
+bool verify_mms_cases(struct verify_mms_case **cases, size_t *count, struct solver_error *error)
+{
+    struct list list = {.cases = NULL};
+    add_large_strain(&list);
+    add_large_strain_3d(&list);
+    add_perturbed(&list);
+    add_isochoric(&list);
+    add_waves(&list);
+    add_ulsph(&list);
+    add_time(&list);
+    *cases = list.cases;
+    *count = list.count;
+    if (list.full) {
+        free(list.cases);
+        *cases = NULL;
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the list of manufactured solutions");
+    }
+    return true;
+}

@@ -1,0 +1,28 @@
+-- A manufactured motion that keeps every volume, of a body that hardly yields in volume: what a scheme adds to or takes from
+-- volumes is turned into pressure, 1700 times as stiff as shear.
+title = "Manufactured motion, volumes kept"
+source = "manufactured: oracles/motion.c"
+
+parameters = { L = 1, period = 1, amplitude = 0.1 } -- m, s, -
+
+dim = 2
+domain = { lower = ({{0}, {0, 0}, {0, 0, 0}})[dim], upper = ({{L}, {L, L}, {L, L, L}})[dim] } -- m
+levels = {12, 24}
+n = 24
+
+material = { model = "neo-hookean", E = 1, nu = 0.4999, rho = 1 } -- Pa, -, kg/m^3
+
+scheme = "upwind"
+evolved, stencil, support, integrator, cfl = "pFHJ", "sbp4", 2, "rk4", 0.4
+t_end = 0.1 * period
+
+oracle = { name = "manufactured-isochoric" }
+initial = { from = "oracle" }
+loads = { from = "oracle" }
+faces = ({
+    { X0 = "motion", X1 = "motion" },
+    { X0 = "motion", X1 = "motion", Y0 = "motion", Y1 = "motion" },
+    { X0 = "motion", X1 = "motion", Y0 = "motion", Y1 = "motion", Z0 = "motion", Z1 = "motion" },
+})[dim]
+
+gates = { { p = 1e-2, P_all = 1 } }

@@ -1,0 +1,28 @@
+-- Manufactured standing waves of small amplitude, with no symmetry: for schemes of linear elasticity, and for those whose law
+-- is one of rates and agrees with it at small strain.
+title = "Manufactured waves"
+source = "manufactured: oracles/motion.c"
+
+parameters = { L = 1, period = 1, amplitude = 1e-6 } -- m, s, -
+
+dim = 2
+domain = { lower = ({{0}, {0, 0}, {0, 0, 0}})[dim], upper = ({{L}, {L, L}, {L, L, L}})[dim] } -- m
+levels = {12, 24}
+n = 24
+
+material = { model = "linear-elastic", E = 1, nu = 0.3, rho = 1 } -- Pa, -, kg/m^3
+
+scheme = "upwind"
+evolved, stencil, support, integrator, cfl = "pF", "sbp4", 2, "rk4", 0.4
+t_end = 0.4 * period
+
+oracle = { name = "manufactured-waves" }
+initial = { from = "oracle" }
+loads = { from = "oracle" }
+faces = ({
+    { X0 = "motion", X1 = "motion" },
+    { X0 = "motion", X1 = "motion", Y0 = "motion", Y1 = "motion" },
+    { X0 = "motion", X1 = "motion", Y0 = "motion", Y1 = "motion", Z0 = "motion", Z1 = "motion" },
+})[dim]
+
+gates = { { p = 1e-2, sigma_all = 1e-2 } }

@@ -1,0 +1,32 @@
+-- A manufactured solution: the body is made to stretch from half to twice its length and back while it turns, by the body
+-- force and the boundary data that this takes. Nothing is small, no symmetry helps, and the answer is known exactly.
+-- `assay verify mms` runs it, and its siblings, for everything that claims an order; one of them in detail:
+--   assay verify manufactured --set stencil=closed --set faces.X0=traction --set dim=3
+title = "Manufactured motion"
+source = "manufactured: oracles/motion.c"
+
+parameters = { L = 1, period = 1, amplitude = 1 } -- m, s, -
+
+dim = 2
+domain = { lower = ({{0}, {0, 0}, {0, 0, 0}})[dim], upper = ({{L}, {L, L}, {L, L, L}})[dim] } -- m
+levels = {12, 24}
+n = 24
+
+-- Waves of the material and the motion take about the same time, so that inertia and stress both count.
+material = { model = "neo-hookean", E = 1, nu = 0.3, rho = 1 } -- Pa, -, kg/m^3
+
+scheme = "upwind"
+evolved, stencil, support, integrator, cfl = "pFHJ", "sbp4", 2, "rk4", 0.4
+t_end = 0.4 * period
+
+oracle = { name = "manufactured-stretch" }
+initial = { from = "oracle" }
+loads = { from = "oracle" }
+-- On every face the position is prescribed; --set faces.X0=traction or roller prescribes the others.
+faces = ({
+    { X0 = "motion", X1 = "motion" },
+    { X0 = "motion", X1 = "motion", Y0 = "motion", Y1 = "motion" },
+    { X0 = "motion", X1 = "motion", Y0 = "motion", Y1 = "motion", Z0 = "motion", Z1 = "motion" },
+})[dim]
+
+gates = { { p = 1e-2, P_all = 1e-2 } }
