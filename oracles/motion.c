@@ -44,9 +44,9 @@ static void turn(struct jet angle, struct jet *x, struct jet *y)
     *y = jet_add(jet_multiply(s, across), jet_multiply(c, *y));
 }
 
-/* Along the last axis the body is stretched to and fro, more at one place than at another; across it, it narrows by the
- * root of that, and it turns about the axis through (L/2, L/2), by an angle that grows along it in 3D and while it
- * bends in 2D. */
+/* Along the last axis the body is stretched to and fro, more at one place than at another along every axis; across it,
+ * it narrows by the root of that, and it turns about the axis through (L/2, L/2), by an angle that grows along it in 3D
+ * and while it bends in 2D. */
 static void displace_stretch(const struct oracle_motion_shape *shape, int dim, const struct jet X[3], struct jet t,
                              struct jet u[3])
 {
@@ -58,6 +58,9 @@ static void displace_stretch(const struct oracle_motion_shape *shape, int dim, c
     struct jet stretch = jet_exp(jet_scale(STRETCH * shape->amplitude, s, 0.0));
     struct jet narrow = jet_exp(jet_scale(-0.5 * STRETCH * shape->amplitude, s, 0.0));
     struct jet ripple = jet_multiply(s, jet_sin(half_waves(shape, X[axis], 1.0, 0.3)));
+    for (int i = 0; i < axis; i++) {
+        ripple = jet_multiply(ripple, jet_cos(half_waves(shape, X[i], 1.0, 0.5 + 0.4 * i)));
+    }
     x[axis] = jet_multiply(stretch, jet_combine(1.0, X[axis], 0.05 * shape->amplitude * L, ripple));
     for (int i = 0; i < axis; i++) {
         x[i] = jet_multiply(narrow, jet_scale(1.0, X[i], -0.5 * L));
@@ -96,7 +99,7 @@ static const struct oracle_motion motions[] = {
      .summary = "standing waves along all axes",
      .amplitude = "displacement over L",
      .most = 0.1,
-     .typical = 1e-6,
+     .typical = 1e-2,
      .least_dim = 1,
      .displace = displace_waves},
     {.name = "stretch",

@@ -32,7 +32,8 @@ static void add_setting(struct verify_mms_case *which, const char *text)
 static struct verify_mms_case drive_case(const char *path, const char *faces)
 {
     struct verify_mms_case which = {.scene = "manufactured", .path = path, .level = {COARSE, FINE}};
-    static const char *const settings[] = {"dim=2", "stencil=sbp4", "evolved=pFHJ", "material.model=neo-hookean"};
+    static const char *const settings[] = {"dim=2", "stencil=sbp4", "evolved=pFHJ", "material.model=neo-hookean",
+                                           "amplitude=0.3"};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         add_setting(&which, settings[i]);
     }
@@ -57,7 +58,8 @@ static void try_drive(const char *path, const char *faces, const struct verify_s
     if (!result.ran) {
         bool broke = result.error.code == SOLVER_BROKE_DOWN;
         mutation->failed = !broke || spoiled == NULL; /* a run that breaks down is noticed, by the user first */
-        (void)snprintf(mutation->caught, sizeof mutation->caught, "%s", broke ? "run broke down" : result.error.text);
+        (void)snprintf(mutation->caught, sizeof mutation->caught, "%.150s",
+                       broke ? "run broke down" : result.error.text);
         return;
     }
     for (size_t i = 0; i < DRIVE_GATES && mutation->caught[0] == '\0'; i++) {
