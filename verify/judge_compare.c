@@ -297,7 +297,7 @@ static bool finish(struct comparison *c)
     }
     return any ||
            verify_sample_refuse(c->sample, c->error,
-                                "holds no field that can be compared; expected u, v, p, F, P, sigma, pressure or "
+                                "holds no field that can be compared; expected u, v, p, F, H, J, P, sigma, pressure or "
                                 "what else the oracle \"%s\" knows, with all components; it has %s",
                                 c->truth->kind->name, used > 0 ? ignored : "none");
 }
