@@ -55,9 +55,12 @@ struct self_check {
     size_t instants;
     struct self_check_scale least; /* sizes the fields are known to have where samples may miss them; else zero */
     const struct self_check_material *material; /* NULL: Hooke's law */
-    double t_first;                             /* samples of a kind with fronts begin here [s] */
-    double drift;  /* velocity of the body as a whole over that of the waves in it: that much less precise is a wave */
-    double t_free; /* nothing feeds or drains the body from here on [s] */
+    size_t pieces; /* [0, t_end] is so many equal pieces in each of which v is smooth; 0: one */
+    /* Energy that the faces have fed in by t, and what of it has been dissipated [J, or J/m^2]; NULL: none. */
+    void (*supplied)(const struct self_check *check, double t, double *fed, double *lost);
+    double t_first; /* samples of a kind with fronts begin here [s] */
+    double drift;   /* velocity of the body as a whole over that of the waves in it: that much less precise is a wave */
+    double t_free;  /* nothing feeds or drains the body from here on [s] */
     struct oracle_check *line;  /* [size] lines to fill */
     size_t size, count;         /* room for lines, and lines there are */
     struct self_check_scale of; /* set by self_check_differentials */
@@ -83,8 +86,8 @@ typedef void self_check_second(const struct self_check *check, const double X[3]
 void self_check_compare(struct self_check *check, self_check_second *second, double bound);
 
 /* Kinetic and strain energy against Gauss quadrature of p.v/2 and of the complementary energy of P (e as P has it, with
- * no unit matrix to subtract), or that of the material, and their sum from t_free on against its first value: nothing
- * feeds or drains the body. */
+ * no unit matrix to subtract), or that of the material, and their sum from t_free on against its first value and what
+ * has been supplied. */
 void self_check_energies(struct self_check *check);
 
 /* Fronts of a one-dimensional kind, at sampled times. At each the other family of characteristics must be smooth:

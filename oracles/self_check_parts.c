@@ -142,7 +142,8 @@ static struct self_check_spot sample_between_fronts(const struct self_check *che
         spot.t = isnan(t) ? self_check_time(check, n) : t;
         double room = clearance(check, &spot);
         if (isnan(t)) {
-            room = fmin(room, self_check_speed(&spot.body) * spot.t);
+            double reach = check->kind->reach != NULL ? check->kind->reach(check->oracle) : INFINITY;
+            room = fmin(room, self_check_speed(&spot.body) * fmin(spot.t, reach - spot.t));
         }
         spot.step = fmin(1, room / ((SELF_CHECK_REACH + 1) * step_along(check, &spot.body, 0)));
         best = spot.step > best.step ? spot : best;
@@ -164,7 +165,9 @@ struct self_check_spot self_check_sample(const struct self_check *check, size_t 
         spot.X[axis] = within(spot.body.lower[axis], spot.body.upper[axis], steps * step_along(check, &spot.body, axis),
                               self_check_sequence(i, axis));
     }
-    spot.t = within(0, check->t_end, steps * step_along(check, &spot.body, 3), self_check_sequence(i, 3));
+    double pieces = (double)(check->pieces > 0 ? check->pieces : 1), part = pieces * self_check_sequence(i, 3);
+    double piece = floor(part), length = check->t_end / pieces;
+    spot.t = within(piece * length, (piece + 1) * length, steps * step_along(check, &spot.body, 3), part - piece);
     return spot;
 }
 
