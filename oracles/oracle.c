@@ -7,6 +7,8 @@
 /* One line per oracle: the name of its struct oracle_kind. */
 #define ORACLE_TABLE(ENTRY)                                                                                            \
     ENTRY(oracle_bimaterial_wave)                                                                                      \
+    ENTRY(oracle_breathing_cylinder)                                                                                   \
+    ENTRY(oracle_breathing_sphere)                                                                                     \
     ENTRY(oracle_cable)                                                                                                \
     ENTRY(oracle_cantilever)                                                                                           \
     ENTRY(oracle_cantilever_plane_stress)                                                                              \
@@ -18,7 +20,8 @@
     ENTRY(oracle_plate_impact_stiffened)                                                                               \
     ENTRY(oracle_rod_impact)                                                                                           \
     ENTRY(oracle_swinging_cube)                                                                                        \
-    ENTRY(oracle_thin_plate)
+    ENTRY(oracle_thin_plate)                                                                                           \
+    ENTRY(oracle_tube_oscillation)
 
 #define DECLARE(kind) extern const struct oracle_kind kind;
 #define ADDRESS(kind) &kind,

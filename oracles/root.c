@@ -6,7 +6,8 @@
 bool root_between(double (*function)(double x, void *with), void *with, double lower, double upper, double *root)
 {
     gsl_function f = {function, with};
-    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
+    bool crosses = !(function(lower, with) * function(upper, with) > 0);
+    gsl_root_fsolver *solver = crosses ? gsl_root_fsolver_alloc(gsl_root_fsolver_brent) : NULL;
     if (solver == NULL) {
         return false;
     }

@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-/* Brent's method until its interval no longer shrinks. The function must be a number on the whole interval, and of
- * different signs at its ends, or zero there. False if there is no memory or no convergence. */
+/* Brent's method until its interval no longer shrinks. The function must be a number on the whole interval. False if it
+ * has one sign at both ends, or there is no memory or no convergence. */
 bool root_between(double (*function)(double x, void *with), void *with, double lower, double upper, double *root);
 
 #endif

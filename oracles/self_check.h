@@ -12,6 +12,7 @@
 #define ORACLES_SELF_CHECK_H
 
 #include "oracles/oracle.h"
+#include "oracles/shell.h"
 
 #define SELF_CHECK_STEP 0.05
 
@@ -48,6 +49,10 @@ struct self_check {
     double frequency;                     /* highest [rad/s] */
     double bulk, mu, rho;                 /* [Pa], [Pa], [kg/m^3] */
     const struct self_check_body *behind; /* a second body further along X, in one dimension; NULL if there is none */
+    const struct shell *shell;            /* the body where it is round, in place of lower and upper; else NULL */
+    const void *with;                     /* whatever the second evaluation needs */
+    const double *instant; /* [instants] the only times at which there is a second evaluation [s]; NULL: any time */
+    size_t instants;
     struct self_check_scale least; /* sizes the fields are known to have where samples may miss them; else zero */
     const struct self_check_material *material; /* NULL: Hooke's law */
     size_t pieces; /* [0, t_end] is so many equal pieces in each of which v is smooth; 0: one */
@@ -72,6 +77,9 @@ void self_check_starts(struct self_check *check, self_check_initial *initial);
 
 /* One face of the box: `held` components of the displacement are zero, and of the traction those that are not. */
 void self_check_face(struct self_check *check, int axis, bool upper, const bool held[3]);
+/* The surface of a round body, and that of its hole: neither bears a traction, to within a bound relative to the
+ * stress. */
+void self_check_free_surfaces(struct self_check *check, double bound);
 
 /* Every field against a second evaluation that shares no formula with the first, to within a relative bound. */
 typedef void self_check_second(const struct self_check *check, const double X[3], double t, struct oracle_state *state);

@@ -57,8 +57,8 @@ def main():
     rows, path = table(), os.path.join(FOLDER, "vtk.vtu")
     grids = [grid(rows, single) for single in (0, 1)]
     count = 0
-    for single, mode, packed, wide, big in itertools.product((0, 1), ("Ascii", "Binary", "Raw", "Base64"), (0, 1), (0, 1),
-                                                             (0, 1)):
+    for mode, packed, wide, big in itertools.product(("Ascii", "Binary", "Raw", "Base64"), (0, 1), (0, 1), (0, 1)):
+        single = count % 3 == 0
         writer = vtkXMLUnstructuredGridWriter()
         writer.SetFileName(path)
         writer.SetInputData(grids[single])

@@ -1,11 +1,8 @@
-# Records as VTK reads them. Debian's python3-vtk9 belongs to /usr/bin/python3, which need not be the first in PATH.
+# Records as VTK reads them.
 add_executable(record_sample ${CMAKE_CURRENT_SOURCE_DIR}/record_sample.c)
 target_link_libraries(record_sample PRIVATE assay_solver)
 
-find_program(ASSAY_SYSTEM_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
-if(NOT ASSAY_SYSTEM_PYTHON)
-  find_program(ASSAY_SYSTEM_PYTHON NAMES python3 REQUIRED)
-endif()
+include(${CMAKE_CURRENT_LIST_DIR}/system_python.cmake)
 set(samples ${CMAKE_BINARY_DIR}/record_samples)
 file(MAKE_DIRECTORY ${samples})
 assay_test(record-sample LABELS unit COMMAND record_sample ${samples})

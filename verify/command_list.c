@@ -39,7 +39,7 @@ static bool list_oracles(struct solver_error *error)
     (void)error;
     (void)printf("oracles\n");
     for (const struct oracle_kind *const *kind = oracle_kinds(); *kind != NULL; kind++) {
-        (void)printf("  %-24s %s\n", (*kind)->name, (*kind)->summary);
+        (void)printf("  %-24s %dD: %s\n", (*kind)->name, (*kind)->dim, (*kind)->summary);
         (void)printf("  %-24s source: %s\n", "", (*kind)->source);
         if ((*kind)->awaits != NULL) {
             (void)printf("  %-24s the solver lacks %s: nothing is verified by it yet\n", "", (*kind)->awaits);

@@ -11,7 +11,6 @@
 #include <string.h>
 
 enum { TIMES = VERIFY_SAMPLES, MOST_PLACES = 1 << 26 };
-static const double ROUND_OFF = 1e-12, SINGLE = 5e-7; /* relative: as what judges takes them */
 
 struct work {
     const struct verify_options *options;
@@ -112,15 +111,12 @@ static bool to_si(struct verify_sample *sample, struct solver_error *error)
 /* Refuses places outside the body, or with --inside leaves them out. */
 static bool keep_inside(const struct work *work, struct verify_sample *sample, struct solver_error *error)
 {
-    double size = 0;
+    double slack = verify_judged_slack(sample, work->truth.kind->dim, sample->X);
     size_t kept = 0;
-    for (size_t i = 0; i < 3 * sample->count; i++) {
-        size = i % 3 < (size_t)work->truth.kind->dim ? fmax(size, fabs(sample->X[i])) : size;
-    }
     for (size_t a = 0; a < sample->count; a++) {
         const double *X = sample->X + 3 * a;
         double outside = work->truth.kind->outside(work->truth.oracle, X);
-        if (!(outside <= (sample->single ? SINGLE : ROUND_OFF) * size)) {
+        if (!(outside <= slack)) {
             if (!work->options->inside) {
                 return verify_sample_refuse(sample, error,
                                             "point %zu, (%.9g, %.9g, %.9g) m, lies %.3g m outside the body; --inside "

@@ -1,7 +1,7 @@
 /* Guarded reading of an HDF5 file that anyone may have written. It may be damaged or hostile, and the library may crash
- * on it, so that all this runs in a process of its own (sample_hdf5.c); what can be checked is checked before memory is
- * asked for: every link is a hard one, every dataset lies in this very file, packed by deflate at most, and claims no
- * more than the file can hold. */
+ * on it, so that all this runs in a process of its own (sample_apart.h); what can be checked is checked before memory
+ * is asked for: every link is a hard one, every dataset lies in this very file, packed by deflate at most, and claims
+ * no more than the file can hold. */
 #ifndef VERIFY_FOREIGN_HDF5_H
 #define VERIFY_FOREIGN_HDF5_H
 

@@ -57,6 +57,9 @@ struct verify_judgement {
     struct verify_gates gates;
 };
 
+/* How far [m] the sample's places X [count][3] may lie outside a body: the round-off of its size. */
+double verify_judged_slack(const struct verify_sample *sample, int dim, const double *X);
+
 /* Compares one sample. `time` and `h` say what the file does not, NaN where nothing does; where both say it they must
  * agree. Errors name the file and the place in it. */
 bool verify_judge_level(const struct verify_truth *truth, const struct verify_sample *sample, double time, double h,

@@ -8,8 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the body's size: what places may lie outside by, and times differ by. */
-static const double ROUND_OFF = 1e-12, SINGLE = 4 * (double)FLT_EPSILON, SAME_TIME = 1e-6;
+/* Relative: what places may lie outside a body by, where they are in double and in single precision, and what times and
+ * spacings said twice may differ by. */
+static const double ROUND_OFF = 1e-12, SINGLE = 4 * (double)FLT_EPSILON, SAME = 1e-6;
 
 /* A sample beside the truth, while it is compared. */
 struct comparison {
@@ -36,11 +37,11 @@ static bool factor_of(struct comparison *c, const char *what, bool has_unit, con
         return true;
     }
     if (!has_unit) {
-        return verify_sample_refuse(c->sample, c->error, "%s has no unit; expected [%s], or this with a prefix", what,
-                                    wanted);
+        return verify_sample_refuse(c->sample, c->error,
+                                    "the unit of %s is missing; expected [%s], or this with a prefix", what, wanted);
     }
     return verify_unit_factor(unit, wanted, factor) ||
-           verify_sample_refuse(c->sample, c->error, "%s is in [%s]; expected [%s]%s", what, unit, wanted,
+           verify_sample_refuse(c->sample, c->error, "the unit of %s is [%s]; expected [%s]%s", what, unit, wanted,
                                 none ? "" : ", or this with a prefix such as m, k or M before it");
 }
 
@@ -57,7 +58,7 @@ static bool take_time(struct comparison *c, double given)
     if (isnan(time) && isnan(given)) {
         return verify_sample_refuse(c->sample, c->error, "does not say its time; give --time T [s]");
     }
-    if (!isnan(time) && !isnan(given) && !(fabs(time - given) <= SAME_TIME * fmax(fabs(time), fabs(given)))) {
+    if (!isnan(time) && !isnan(given) && !(fabs(time - given) <= SAME * fmax(fabs(time), fabs(given)))) {
         return verify_sample_refuse(c->sample, c->error, "is of t = %.12g s, but --time says %.12g s", time, given);
     }
     c->level->time = isnan(time) ? given : time;
@@ -74,7 +75,7 @@ static bool take_spacing(struct comparison *c, double given)
             return false;
         }
         c->level->h = own->value * factor;
-        if (!isnan(given) && !(fabs(given - c->level->h) <= SAME_TIME * given)) {
+        if (!isnan(given) && !(fabs(given - c->level->h) <= SAME * given)) {
             return verify_sample_refuse(c->sample, c->error, "has h = %.12g m, but --spacing says %.12g m", c->level->h,
                                         given);
         }
@@ -82,11 +83,20 @@ static bool take_spacing(struct comparison *c, double given)
     return true;
 }
 
+double verify_judged_slack(const struct verify_sample *sample, int dim, const double *X)
+{
+    double size = 0;
+    for (size_t i = 0; i < 3 * sample->count; i++) {
+        size = i % 3 < (size_t)dim ? fmax(size, fabs(X[i])) : size;
+    }
+    return (sample->single ? SINGLE : ROUND_OFF) * size;
+}
+
 /* Places in metres, each of them within the body but for round-off. */
 static bool take_places(struct comparison *c)
 {
     const struct verify_sample *sample = c->sample;
-    double factor, size = 0;
+    double factor;
     if (sample->dim < (int)c->dim) {
         return verify_sample_refuse(sample, c->error, "points have %d coordinates; the oracle \"%s\" is %zuD",
                                     sample->dim, c->truth->kind->name, c->dim);
@@ -96,9 +106,8 @@ static bool take_places(struct comparison *c)
     }
     for (size_t i = 0; i < 3 * sample->count; i++) {
         c->X[i] = sample->X[i] * factor;
-        size = i % 3 < c->dim ? fmax(size, fabs(c->X[i])) : size;
     }
-    double slack = (sample->single ? SINGLE : ROUND_OFF) * size;
+    double slack = verify_judged_slack(sample, (int)c->dim, c->X);
     for (size_t a = 0; a < sample->count; a++) {
         const double *X = c->X + 3 * a;
         double outside = c->truth->kind->outside(c->truth->oracle, X);
@@ -288,7 +297,7 @@ static bool finish(struct comparison *c)
     }
     return any ||
            verify_sample_refuse(c->sample, c->error,
-                                "holds no field that can be compared; expected u, v, p, F, P, sigma, pressure or "
+                                "holds no field that can be compared; expected u, v, p, F, H, J, P, sigma, pressure or "
                                 "what else the oracle \"%s\" knows, with all components; it has %s",
                                 c->truth->kind->name, used > 0 ? ignored : "none");
 }

@@ -14,6 +14,8 @@ static const struct {
     {VERIFY_p, "momentum"},
     {VERIFY_p, "linear_momentum"},
     {VERIFY_F, "deformation_gradient"},
+    {VERIFY_H, "cofactor"},
+    {VERIFY_J, "jacobian"},
     {VERIFY_P, "first_piola_kirchhoff"},
     {VERIFY_P, "pk1"},
     {VERIFY_SIGMA, "cauchy"},
@@ -109,11 +111,5 @@ size_t verify_judged_exact(const struct verify_truth *truth, size_t field, const
         value[0] = extra[field - VERIFY_STATE_FIELDS];
         return 1;
     }
-    enum verify_field of = whole((enum verify_field)field);
-    enum verify_field all = of == VERIFY_P ? VERIFY_P_ALL : of == VERIFY_SIGMA ? VERIFY_SIGMA_ALL : of;
-    size_t width = verify_field_exact(all, truth->kind, state, 3, value);
-    for (size_t i = 0; of == VERIFY_F && i < 9; i += 4) {
-        value[i] = state->F[i]; /* what is compared is less the identity */
-    }
-    return width;
+    return verify_field_whole((enum verify_field)field, truth->kind, state, value);
 }

@@ -162,6 +162,7 @@ bool verify_error_applies(const struct solver_scene *scene, size_t error, const 
     *lacks = scene->oracle[0] == '\0'                                    ? "oracle, to compare with"
              : of_snapshots && scene->snapshot_count == 0                ? "snapshots"
              : of_probes && scene->probe_count == 0                      ? "probes"
+             : field_of(error) == VERIFY_H && scene->dim < 2             ? "dim = 2 or 3: in 1D the cofactor is 1"
              : along_y && scene->dim < 2                                 ? "dim = 2 or 3, so that there is a y"
              : error >= VERIFY_PROBES_NRMSE && !(scene->probe_scale > 0) ? "probe_scale"
              : !verify_error_known(scene, error)                         ? "scheme set to one that knows F and P"
@@ -204,23 +205,34 @@ size_t verify_field_take(enum verify_field field, const double *value, size_t ro
     return width;
 }
 
-size_t verify_field_exact(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
-                          size_t dim, double out[9])
+size_t verify_field_whole(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
+                          double value[9])
 {
+    static const size_t width[] = {[VERIFY_SCALAR] = 1, [VERIFY_VECTOR] = 3, [VERIFY_TENSOR] = 9};
+    size_t count = width[verify_field_shape(field)];
     double sigma[9], H[9], J, pressure;
-    const double *value = field == VERIFY_p   ? state->p
-                          : field == VERIFY_u ? state->u
-                          : field == VERIFY_v ? state->v
-                          : field == VERIFY_F ? state->F
-                                              : state->P;
+    const double *of = field == VERIFY_p   ? state->p
+                       : field == VERIFY_u ? state->u
+                       : field == VERIFY_v ? state->v
+                       : field == VERIFY_F ? state->F
+                                           : state->P;
     if (field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL || field == VERIFY_PRESSURE) {
         oracle_cauchy(kind, state, sigma);
         pressure = (sigma[0] + sigma[4] + sigma[8]) / 3;
-        value = field == VERIFY_PRESSURE ? &pressure : sigma;
+        of = field == VERIFY_PRESSURE ? &pressure : sigma;
     } else if (field == VERIFY_H || field == VERIFY_J) {
         J = oracle_measures(kind->finite_strain, state->F, H);
-        value = field == VERIFY_J ? &J : H;
+        of = field == VERIFY_J ? &J : H;
     }
+    memcpy(value, of, count * sizeof *value);
+    return count;
+}
+
+size_t verify_field_exact(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
+                          size_t dim, double out[9])
+{
+    double value[9];
+    (void)verify_field_whole(field, kind, state, value);
     return verify_field_take(field, value, 3, dim, out);
 }
 

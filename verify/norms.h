@@ -93,7 +93,10 @@ const char *verify_field_unit(enum verify_field field);
 /* Components of a field at one point that count in `dim` dimensions, from a scalar, a vector [>= dim] or a tensor with
  * rows of `row` numbers; returns how many. */
 size_t verify_field_take(enum verify_field field, const double *value, size_t row, size_t dim, double out[9]);
-/* The same of an oracle's state. */
+/* An oracle's value of a field, whole: a scalar, a vector [3] or a tensor [9]; returns how many numbers. */
+size_t verify_field_whole(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
+                          double value[9]);
+/* Of that value the components that count. */
 size_t verify_field_exact(enum verify_field field, const struct oracle_kind *kind, const struct oracle_state *state,
                           size_t dim, double out[9]);
 

@@ -118,7 +118,7 @@ struct verify_sample_field *verify_sample_add(struct verify_sample *sample, cons
     }
     struct verify_sample_field *field = &sample->field[sample->field_count];
     *field = (struct verify_sample_field){.width = width, .has_unit = unit != NULL, .given = (1U << width) - 1};
-    (void)snprintf(field->name, sizeof field->name, "%s", text);
+    (void)snprintf(field->name, sizeof field->name, "%.63s", text);
     (void)snprintf(field->unit, sizeof field->unit, "%.31s", unit != NULL ? unit : "");
     if (!allocate(&field->value, sample, (size_t)width, field->name, error)) {
         return NULL;

@@ -1,4 +1,4 @@
-/* What an HDF5 file holds for the judge. Runs in a process of its own (sample_hdf5.c). */
+/* What an HDF5 file holds for the judge. Runs in a process of its own (sample_apart.h). */
 #ifndef VERIFY_SAMPLE_SCHEMA_H
 #define VERIFY_SAMPLE_SCHEMA_H
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds with the address and undefined-behaviour sanitizers and runs all unit programs.
+# Builds with the address and undefined-behaviour sanitizers and runs all unit programs, and the program on files that
+# are malformed.
 # Usage: sanitize.sh SOURCE BUILD
 set -euo pipefail
 source=$1 build=$2
@@ -10,4 +11,4 @@ for program in "$build"/tests/test_*; do
 done
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
 # Without the mutation suites, which run the self-check of the conformance suite again for each fault: minutes.
-exec ctest --test-dir "$build" -R '^unit-' -E 'oracles_mutations' --output-on-failure --no-tests=error --parallel "$(nproc)"
+exec ctest --test-dir "$build" -R '^(unit-|judge-malformed)' -E 'oracles_mutations' --output-on-failure --no-tests=error --parallel "$(nproc)"

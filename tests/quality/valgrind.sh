@@ -5,8 +5,10 @@ set -euo pipefail
 # What is left out, and why; memcheck slows programs down by about 100, and the sanitizers see these too.
 declare -A skipped=(
   [test_oracles_cantilever]="some twenty eigenproblems as test_oracles_conformance solves one: minutes"
+  [test_oracles_outside]="the eigenproblems of both cantilevers, to ask where their bodies are: minutes"
   [test_oracles_mutations_every]="the self-check of test_oracles_conformance, again for each fault: minutes"
   [test_oracles_mutations]="the self-check of test_oracles_conformance, again for each wrong formula: 50 s"
+  [test_verify_sample_fuzz]="thousands of files, each of which the sanitizers see read: 20 s"
   [test_render_draw]="most of it is OSMesa, with machine code of its own making: 50 s"
   [test_solver_run_threads]="the runs of test_solver_run, three times each: minutes"
   [test_solver_slab]="the loops of test_solver_run_composite and test_solver_ulsph_states, for thousands of steps: minutes"

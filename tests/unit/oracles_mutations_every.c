@@ -45,6 +45,7 @@ static const struct {
     {"kinetic energy", NULL, kinetic_energy, NULL},
     {"strain energy", NULL, strain_energy, NULL},
     {"both energies", NULL, both_energies, NULL},
+    {"share of the energies", NULL, exchanged_energy, NULL},
     {"extra scalars", NULL, NULL, all_extras},
 };
 
@@ -67,20 +68,13 @@ static void small_changes_are_caught(void)
         begin(*k, value);
         CU_ASSERT_FALSE(caught(&loosest)); /* going through the copy is no fault */
         for (size_t i = 0; i < sizeof mutations / sizeof *mutations; i++) {
-            double smallest = INFINITY;
             now.state = mutations[i].state;
             now.energy = mutations[i].energy;
             now.extras = mutations[i].extras;
             if (now.extras != NULL && (*k)->extras == NULL) {
                 continue;
             }
-            for (int exponent = -4; exponent >= -14; exponent -= 2) {
-                now.d = pow(10, exponent);
-                if (!caught(NULL)) {
-                    break;
-                }
-                smallest = now.d;
-            }
+            double smallest = smallest_caught(-4, -14, 2);
             printf("    %-16s %-16s caught down to %.0e\n", (*k)->name, mutations[i].name, smallest);
             CU_ASSERT_TRUE(smallest <= 1e3 * loosest);
         }

@@ -74,6 +74,21 @@ static inline bool caught(double *loosest)
     return !holds;
 }
 
+/* The smallest power of ten for d, from `first` down in steps to `last`, that is caught as all larger ones are;
+ * infinity if there is none. */
+static inline double smallest_caught(int first, int last, int step)
+{
+    double smallest = INFINITY;
+    for (int exponent = first; exponent >= last; exponent -= step) {
+        now.d = pow(10, exponent);
+        if (!caught(NULL)) {
+            break;
+        }
+        smallest = now.d;
+    }
+    return smallest;
+}
+
 static inline void scale(double *x, size_t count, double factor)
 {
     for (size_t i = 0; i < count; i++) {
@@ -191,6 +206,13 @@ static inline void both_energies(double d, struct energies *e)
 {
     e->kinetic *= 1 + d;
     e->strain *= 1 + d;
+}
+
+static inline void exchanged_energy(double d, struct energies *e)
+{
+    double shift = d * e->kinetic; /* the total stays right */
+    e->kinetic -= shift;
+    e->strain += shift;
 }
 
 static inline void infinite_energy(double d, struct energies *e)

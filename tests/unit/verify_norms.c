@@ -225,7 +225,7 @@ static void errors_that_apply(void)
     (void)snprintf(scene.scheme, sizeof scene.scheme, "ulsph"); /* knows neither F nor P */
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
         const char *name = verify_error_name(i) + (strncmp(verify_error_name(i), "snapshots_", 10) == 0 ? 10 : 0);
-        bool of_deformation = name[0] == 'P' || name[0] == 'F';
+        bool of_deformation = strchr("PFH", name[0]) != NULL;
         CU_ASSERT_EQUAL(verify_error_applies(&scene, i, &lacks), !of_deformation);
         CU_ASSERT_EQUAL(verify_error_known(&scene, i), !of_deformation);
         CU_ASSERT_EQUAL(of_deformation, lacks != NULL && strncmp(lacks, "scheme ", 7) == 0);
