@@ -11,9 +11,8 @@
  * in which nothing overflows or cancels. At c = m pi the middle term decides the sign, (-1)^m, so mode n lies between
  * c = (n - 1) pi and n pi. */
 #include "oracles/beam.h"
+#include "oracles/root.h"
 
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_roots.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -47,23 +46,6 @@ static double characteristic(double c, void *context)
     const struct waves w = waves(context, c);
     double q = w.c * w.gc / (w.a * w.ga);
     return 2 / cosh(w.a) + cos(c) * (q + 1 / q) - (c / w.a - w.a / c) * tanh(w.a) * sin(c);
-}
-
-/* Brent's method until its interval no longer shrinks. */
-static bool find_root(gsl_function *function, double lower, double upper, double *root)
-{
-    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-    if (solver == NULL) {
-        return false;
-    }
-    bool found = gsl_root_fsolver_set(solver, function, lower, upper) == GSL_SUCCESS;
-    for (int i = 0, status = GSL_CONTINUE; found && status == GSL_CONTINUE && i < 200; i++) {
-        found = gsl_root_fsolver_iterate(solver) == GSL_SUCCESS;
-        status = gsl_root_test_interval(gsl_root_fsolver_x_lower(solver), gsl_root_fsolver_x_upper(solver), 0, 4e-16);
-    }
-    *root = gsl_root_fsolver_root(solver);
-    gsl_root_fsolver_free(solver);
-    return found;
 }
 
 /* The shape with clamp and free shear force: C = -A, D = -(ga / gc) B, and B / A = -R, where 1 - R = G exp(-a) is
@@ -124,8 +106,8 @@ static bool solve(const struct oracle_beam *beam, const struct theory *theory, i
                        mode, beam->length, beam->height);
         return false;
     }
-    gsl_function function = {.function = characteristic, .params = (void *)theory};
-    if (!find_root(&function, lower, upper, &c)) {
+    struct theory copy = *theory;
+    if (!root_between(characteristic, &copy, lower, upper, &c)) {
         (void)snprintf(why, ORACLE_WHY, "mode %d: no root of the characteristic equation between %g and %g", mode,
                        lower, upper);
         return false;

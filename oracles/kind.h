@@ -10,6 +10,8 @@ bool oracle_representable(const double *size, size_t count, bool at_rest);
 /* Says so in `why` of the values, which are in the order of the parameters. Returns false. */
 bool oracle_out_of_range(const struct oracle_parameter *parameter, const double *value, char why[ORACLE_WHY]);
 
+/* The state where an oracle says nothing: all NaN. */
+void oracle_silence(struct oracle_state *state);
 /* Distance [m] of X from the box lower <= X <= upper along the first `dim` axes; NaN where X is. */
 double oracle_outside_box(int dim, const double *lower, const double *upper, const double *X);
 

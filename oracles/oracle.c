@@ -7,12 +7,21 @@
 /* One line per oracle: the name of its struct oracle_kind. */
 #define ORACLE_TABLE(ENTRY)                                                                                            \
     ENTRY(oracle_bimaterial_wave)                                                                                      \
+    ENTRY(oracle_breathing_cylinder)                                                                                   \
+    ENTRY(oracle_breathing_sphere)                                                                                     \
     ENTRY(oracle_cable)                                                                                                \
     ENTRY(oracle_cantilever)                                                                                           \
     ENTRY(oracle_cantilever_plane_stress)                                                                              \
+    ENTRY(oracle_j2_hencky_uniaxial)                                                                                   \
+    ENTRY(oracle_j2_simple_shear)                                                                                      \
+    ENTRY(oracle_j2_uniaxial)                                                                                          \
+    ENTRY(oracle_plastic_wave)                                                                                         \
+    ENTRY(oracle_plate_impact_mie_grueneisen)                                                                          \
+    ENTRY(oracle_plate_impact_stiffened)                                                                               \
     ENTRY(oracle_rod_impact)                                                                                           \
     ENTRY(oracle_swinging_cube)                                                                                        \
-    ENTRY(oracle_thin_plate)
+    ENTRY(oracle_thin_plate)                                                                                           \
+    ENTRY(oracle_tube_oscillation)
 
 #define DECLARE(kind) extern const struct oracle_kind kind;
 #define ADDRESS(kind) &kind,

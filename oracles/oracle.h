@@ -78,6 +78,8 @@ struct oracle_kind {
                       char why[ORACLE_WHY]);
     const void *about;
     void (*destroy)(struct oracle *oracle);
+    /* The last time [s] that it reaches: later it says NaN. NULL: there is none. */
+    double (*reach)(const struct oracle *oracle);
     void (*state)(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state);
     /* The extra scalars at X and t, in the order of `extra`; NULL if there are none. */
     void (*extras)(const struct oracle *oracle, const double X[3], double t, double value[ORACLE_EXTRAS]);

@@ -6,6 +6,7 @@
 
 enum { NUMBERS = sizeof(struct oracle_state) / sizeof(double) };
 enum { CANDIDATES = 8 }; /* sample points to choose from where there are fronts */
+enum { RADII = 4 };      /* to integrate along in a round body */
 
 double self_check_worse(double a, double b)
 {
@@ -44,7 +45,8 @@ void self_check_line(struct self_check *check, const char *law, double residual,
 double self_check_round_off(const struct self_check *check)
 {
     double far = check->behind == NULL ? 0 : check->behind->upper[0] / self_check_speed(check->behind);
-    return DBL_EPSILON * (1 + check->frequency * (check->t_end + far)) * (1 + check->drift);
+    double along_radius = check->shell == NULL ? 0 : check->shell->outer * check->wave_number;
+    return DBL_EPSILON * (1 + check->frequency * (check->t_end + far) + along_radius) * (1 + check->drift);
 }
 
 double self_check_gradient_scale(const struct self_check *check, double bound)
@@ -77,6 +79,9 @@ double self_check_speed(const struct self_check_body *body)
 
 double self_check_radian(const struct self_check *check, const struct self_check_body *body)
 {
+    if (check->shell != NULL) {
+        return 2 / check->wave_number;
+    }
     return check->kind->fronts == NULL ? INFINITY : self_check_speed(body) / check->frequency;
 }
 
@@ -137,7 +142,8 @@ static struct self_check_spot sample_between_fronts(const struct self_check *che
         spot.t = isnan(t) ? self_check_time(check, n) : t;
         double room = clearance(check, &spot);
         if (isnan(t)) {
-            room = fmin(room, self_check_speed(&spot.body) * spot.t);
+            double reach = check->kind->reach != NULL ? check->kind->reach(check->oracle) : INFINITY;
+            room = fmin(room, self_check_speed(&spot.body) * fmin(spot.t, reach - spot.t));
         }
         spot.step = fmin(1, room / ((SELF_CHECK_REACH + 1) * step_along(check, &spot.body, 0)));
         best = spot.step > best.step ? spot : best;
@@ -151,11 +157,17 @@ struct self_check_spot self_check_sample(const struct self_check *check, size_t 
         return sample_between_fronts(check, i, NAN);
     }
     struct self_check_spot spot = {.body = self_check_body(check, 0), .step = 1};
-    for (int axis = 0; axis < check->kind->dim; axis++) {
+    if (check->shell != NULL) {
+        double part[3] = {self_check_sequence(i, 0), self_check_sequence(i, 1), self_check_sequence(i, 2)};
+        (void)shell_place(check->shell, part, steps * step_along(check, &spot.body, 0), spot.X);
+    }
+    for (int axis = 0; check->shell == NULL && axis < check->kind->dim; axis++) {
         spot.X[axis] = within(spot.body.lower[axis], spot.body.upper[axis], steps * step_along(check, &spot.body, axis),
                               self_check_sequence(i, axis));
     }
-    spot.t = within(0, check->t_end, steps * step_along(check, &spot.body, 3), self_check_sequence(i, 3));
+    double pieces = (double)(check->pieces > 0 ? check->pieces : 1), part = pieces * self_check_sequence(i, 3);
+    double piece = floor(part), length = check->t_end / pieces;
+    spot.t = within(piece * length, (piece + 1) * length, steps * step_along(check, &spot.body, 3), part - piece);
     return spot;
 }
 
@@ -248,6 +260,22 @@ static void integrate_along(const struct integral *of, int axis, double lower, d
     }
 }
 
+static void integrate_along_radii(const struct integral *of, double longest)
+{
+    const struct shell *shell = of->check->shell;
+    int cuts = (int)fmax(1, ceil((shell->outer - shell->inner) / longest));
+    for (int i = 0; i < RADII * cuts * SELF_CHECK_NODES; i++) {
+        size_t radius = (size_t)(i / (cuts * SELF_CHECK_NODES));
+        double share, X[3], node = self_check_node(i % SELF_CHECK_NODES, &share);
+        double part[3] = {(i / SELF_CHECK_NODES % cuts + (1 + node) / 2) / cuts, self_check_sequence(radius, 1),
+                          self_check_sequence(radius, 2)};
+        double weight = shell_place(shell, part, 0, X) * share / 2 / cuts / RADII;
+        struct oracle_state state;
+        of->check->kind->state(of->check->oracle, X, of->t, &state);
+        of->integrand(of->body, &state, X, of->with, weight, of->sum);
+    }
+}
+
 void self_check_integrate(const struct self_check *check, const struct self_check_body *body, double t, double longest,
                           self_check_integrand *integrand, const void *with, double sum[SELF_CHECK_SUMS])
 {
@@ -256,6 +284,10 @@ void self_check_integrate(const struct self_check *check, const struct self_chec
     size_t count = self_check_places(check, body, t, place);
     for (int i = 0; i < SELF_CHECK_SUMS; i++) {
         sum[i] = count == 0 ? NAN : 0;
+    }
+    if (check->shell != NULL) {
+        integrate_along_radii(&of, longest);
+        return;
     }
     for (size_t i = 0; i + 1 < count; i++) {
         double from = place[i], length = place[i + 1] - from;

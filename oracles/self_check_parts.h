@@ -20,7 +20,7 @@ double self_check_relative(double error, double scale);
 void self_check_line(struct self_check *check, const char *law, double residual, double bound);
 
 /* Relative error of two evaluations of the same field at the same point: round-off times the phase, in radians, that
- * the fastest wave has run through. */
+ * the fastest wave has run through, in a round body also from the origin to its surface. */
 double self_check_round_off(const struct self_check *check);
 /* F is stored with its unit matrix, whose round-off hides that much of a small gradient, in each of two evaluations:
  * what to measure an error of the gradient against that must stay below `bound`. */
@@ -32,7 +32,8 @@ int self_check_bodies(const struct self_check *check);
 /* p-wave modulus [Pa] and speed [m/s]. */
 double self_check_modulus(const struct self_check_body *body);
 double self_check_speed(const struct self_check_body *body);
-/* Longest piece to integrate over in one go [m]: of a kind with fronts a radian of the wave, of a smooth one all. */
+/* Longest piece to integrate over in one go [m]: of a kind with fronts a radian of the wave, of a round body two along
+ * the radius, of a smooth box all. */
 double self_check_radian(const struct self_check *check, const struct self_check_body *body);
 
 /* Halton's sequence in [0, 1): the digits of i + 1 in a prime base of its own per axis (3: time), mirrored at the
@@ -70,7 +71,8 @@ enum { SELF_CHECK_SUMS = 3 };
 typedef void self_check_integrand(const struct self_check_body *body, const struct oracle_state *state,
                                   const double X[3], const void *with, double weight, double sum[SELF_CHECK_SUMS]);
 /* Over one body at time t, by ten-point Gauss rules in the pieces between fronts, which are cut where they are longer
- * than `longest` [m]. Sums are NaN where the fronts are not known. */
+ * than `longest` [m]. Sums are NaN where the fronts are not known. A round body is integrated along some radii, each
+ * for its share of the body: what is integrated must be alike in all directions. */
 void self_check_integrate(const struct self_check *check, const struct self_check_body *body, double t, double longest,
                           self_check_integrand *integrand, const void *with, double sum[SELF_CHECK_SUMS]);
 /* What the fields of a body in one dimension say of the amplitude q [m] of u = q(t) cos(k (X - X0)), a mode of it with
@@ -80,6 +82,10 @@ void self_check_mode(const struct self_check *check, const struct self_check_bod
 /* Adds the lines that compare those with the modal solution, the fastest mode of which has `frequency` [rad/s]: the
  * round-off is that of its phase. */
 void self_check_mode_lines(struct self_check *check, const struct self_check_distance of[3], double frequency);
+/* Adds a line: in one dimension, v at X passes `level` [m/s] at `time` [s], and not before. */
+void self_check_arrival(struct self_check *check, const char *law, double X, double level, double time);
+/* Adds a line: from later than `time` on [s] the kind says NaN, and not before. */
+void self_check_reach(struct self_check *check, const char *law, double time);
 /* The rule itself, on [-1, 1]. */
 enum { SELF_CHECK_NODES = 10 };
 double self_check_node(int n, double *weight);

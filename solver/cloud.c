@@ -28,6 +28,28 @@ bool cloud_reserve(struct solver_cloud *cloud, struct cloud_size size, struct so
            solver_alloc((void **)&cloud->cell, cloud->cell_count << dim, sizeof(uint32_t), "lattice cells", error);
 }
 
+void cloud_lattice_cells(int dim, const uint32_t first[3], const uint32_t body[3], const uint32_t points[3],
+                         size_t first_particle, uint32_t *cell)
+{
+    static const uint32_t corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                          {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    uint32_t cells[3];
+    for (int axis = 0; axis < 3; axis++) {
+        cells[axis] = axis < dim ? body[axis] - 1 : 1;
+    }
+    for (uint32_t k = 0; k < cells[2]; k++) {
+        for (uint32_t j = 0; j < cells[1]; j++) {
+            for (uint32_t i = 0; i < cells[0]; i++) {
+                for (size_t c = 0; c < (size_t)1 << dim; c++) {
+                    size_t at[3] = {first[0] + i + corner[c][0], first[1] + j + corner[c][1],
+                                    first[2] + k + corner[c][2]};
+                    *cell++ = (uint32_t)(first_particle + (at[2] * points[1] + at[1]) * points[0] + at[0]);
+                }
+            }
+        }
+    }
+}
+
 struct ordered {
     uint64_t code; /* the highest bit tells particles of walls */
     uint32_t from;

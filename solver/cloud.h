@@ -12,16 +12,17 @@
 /* A particle's share of one face of the body. Particles on edges have two of these, in corners three. */
 struct solver_face_point {
     uint32_t particle;
-    uint32_t face;  /* 0..5: X0, X1, Y0, Y1, Z0, Z1 */
+    uint32_t face;  /* 0..5: X0, X1, Y0, Y1, Z0, Z1; SOLVER_SURFACE */
     double area[3]; /* outward area vector [m^2; m in 2D; 1 in 1D] */
 };
 
-/* Bits of a tag, of the first of six faces. Particles lie on faces, or all in the centres of cells. */
+/* Bits of a tag, of the first of seven faces. Particles lie on faces, or all in the centres of cells. */
 enum {
+    SOLVER_SURFACE = 6, /* the curved face of a round body */
     SOLVER_ON_FACE = 0,
     SOLVER_NEXT_TO_FACE = 8,
     SOLVER_BEYOND_FACE = 16, /* particles of a wall */
-    SOLVER_FACE_BITS = 0x3f
+    SOLVER_FACE_BITS = 0x7f
 };
 
 struct solver_cloud {
@@ -65,6 +66,12 @@ bool solver_cloud_box(const struct solver_box *box, struct solver_cloud **cloud,
  * together along one curve. SOLVER_BAD_INPUT where a shape is not a whole number of spacings thick, or two overlap. */
 bool solver_cloud_bodies(int dim, const struct solver_shape *shape, size_t shape_count, double spacing,
                          struct solver_cloud **cloud, struct solver_error *error);
+/* A disc, a ball or a cylinder, with particles on its surface, in concentric shells a spacing apart; around a shell
+ * they are pi/4 of a spacing apart, near the corners of a ball's shells less. Volumes sum to the body's and have its
+ * first moments, and area vectors along the exact normals satisfy the divergence theorem for quadratic fields
+ * (cloud_round.c). SOLVER_BAD_INPUT where radius or length is not a whole number of spacings. */
+bool solver_cloud_round(const struct solver_shape *shape, double spacing, struct solver_cloud **cloud,
+                        struct solver_error *error);
 void solver_cloud_free(struct solver_cloud *cloud);
 
 #endif

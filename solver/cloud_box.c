@@ -157,28 +157,6 @@ static void site_of(const struct lattice *lattice, size_t a, uint32_t site[3])
     site[2] = (uint32_t)(a / points[0] / points[1]);
 }
 
-static void list_cells(const struct lattice *lattice, int dim, size_t first_particle, uint32_t *out)
-{
-    static const uint32_t corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                          {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    const uint32_t *points = lattice->points;
-    uint32_t cells[3];
-    for (int axis = 0; axis < 3; axis++) {
-        cells[axis] = axis < dim ? lattice->body[axis] - 1 : 1;
-    }
-    for (uint32_t k = 0; k < cells[2]; k++) {
-        for (uint32_t j = 0; j < cells[1]; j++) {
-            for (uint32_t i = 0; i < cells[0]; i++) {
-                for (size_t c = 0; c < (size_t)1 << dim; c++) {
-                    size_t at[3] = {lattice->first[0] + i + corner[c][0], lattice->first[1] + j + corner[c][1],
-                                    lattice->first[2] + k + corner[c][2]};
-                    *out++ = (uint32_t)(first_particle + (at[2] * points[1] + at[1]) * points[0] + at[0]);
-                }
-            }
-        }
-    }
-}
-
 void cloud_box_fill(struct solver_cloud *cloud, const struct solver_box *box, struct cloud_size from)
 {
     struct lattice lattice;
@@ -192,7 +170,8 @@ void cloud_box_fill(struct solver_cloud *cloud, const struct solver_box *box, st
         site_of(&lattice, a, site);
         place(cloud, box, &lattice, from.particles + a, site);
     }
-    list_cells(&lattice, box->dim, from.particles, cloud->cell + (from.cells << box->dim));
+    cloud_lattice_cells(box->dim, lattice.first, lattice.body, lattice.points, from.particles,
+                        cloud->cell + (from.cells << box->dim));
 }
 
 static bool list_face_points(struct solver_cloud *cloud, struct solver_error *error)

@@ -21,6 +21,11 @@ bool cloud_reserve(struct solver_cloud *cloud, struct cloud_size size, struct so
  * these. Particles at one place stay in the order they have. Cells follow, and so do the places. */
 bool cloud_order(struct solver_cloud *cloud, uint32_t (*place)[3], struct solver_error *error);
 
+/* Cells of a lattice: body[axis] points from first[axis] on of points[axis] along each axis, points[0] running first
+ * from `first_particle` on. */
+void cloud_lattice_cells(int dim, const uint32_t first[3], const uint32_t body[3], const uint32_t points[3],
+                         size_t first_particle, uint32_t *cell);
+
 /* Sizes of shapes; they refuse one that does not fit the spacing, or has more particles than can be numbered. */
 bool cloud_box_size(const struct solver_box *box, struct cloud_size *size, struct solver_error *error);
 bool cloud_ring_size(const struct solver_shape *ring, double spacing, struct cloud_size *size,

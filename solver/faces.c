@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Which axes a face constrains, by its kind: the normal, the others, or all. */
+/* Which axes a face constrains, by its kind: the normal, the others, or all. A curved one holds all or none. */
 static unsigned constrained_axes(enum solver_face_kind kind, unsigned normal, unsigned dim)
 {
     unsigned all = (1U << dim) - 1U;
@@ -86,7 +86,7 @@ static bool constrain_by_faces(const struct solver_scene *scene, const struct so
         constraint->axis[i] = (struct solver_held){.motion = -1, .until = INFINITY};
     }
     for (int rollers = 0; rollers < 2; rollers++) {
-        for (unsigned face = 0; face < 2 * dim; face++) {
+        for (unsigned face = 0; face < SOLVER_FACES; face++) {
             if ((bits >> face & 1U) != 0 && (scene->face[face] == SOLVER_ROLLER) == (rollers == 1)) {
                 add_face(scene, face, dim, constraint);
                 clamped = clamped || scene->face[face] == SOLVER_CLAMPED;
@@ -106,13 +106,13 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_cloud *cloud = body->cloud;
-    unsigned dim = (unsigned)cloud->dim;
     *faces = (struct solver_faces){.dim = cloud->dim, .force_time = NAN};
     size_t most = geometry->face_point_count + cloud->wall_count;
     if (!solver_alloc((void **)&faces->constraint, most, sizeof *faces->constraint, "constraints", error) ||
         !solver_alloc((void **)&faces->load, geometry->face_point_count, sizeof *faces->load, "loads", error) ||
         (solver_scene_has(scene, SOLVER_BODY_FORCE) &&
-         !solver_alloc((void **)&faces->force, cloud->count * dim, sizeof *faces->force, "body force", error))) {
+         !solver_alloc((void **)&faces->force, cloud->count * (size_t)cloud->dim, sizeof *faces->force, "body force",
+                       error))) {
         return false;
     }
     for (size_t a = 0; a < cloud->count; a++) {
@@ -122,7 +122,7 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
             faces->constraint[faces->constraint_count++] = constraint;
         }
     }
-    for (unsigned face = 0; face < 2 * dim; face++) {
+    for (unsigned face = 0; face < SOLVER_FACES; face++) {
         faces->moved = faces->moved || is_moved(scene->face[face]);
     }
     for (size_t i = 0; i < geometry->face_point_count; i++) {

@@ -137,11 +137,13 @@ static bool build_cloud(struct solver_run *run, struct solver_error *error)
                              .mirrored = scene->wall_motion == SOLVER_WALL_MIRRORED};
     memcpy(box.lower, scene->lower, sizeof box.lower);
     memcpy(box.upper, scene->upper, sizeof box.upper);
-    for (int face = 0; face < SOLVER_FACES; face++) {
+    for (int face = 0; face < SOLVER_SURFACE; face++) {
         box.wall[face] = (uint32_t)solver_scene_wall(scene, face);
     }
     bool made = scene->shape_count > 0
                     ? solver_cloud_bodies(scene->dim, scene->shape, scene->shape_count, spacing, &run->cloud, error)
+                : scene->domain.kind != SOLVER_SHAPE_BOX
+                    ? solver_cloud_round(&scene->domain, spacing, &run->cloud, error)
                     : solver_cloud_box(&box, &run->cloud, error);
     if (made) {
         run->shown = *run->cloud;

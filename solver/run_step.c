@@ -234,7 +234,7 @@ bool solver_run_steps(struct solver_run *run, size_t steps, struct solver_error 
 static double next_stop(const struct solver_run *run, double t_end)
 {
     double stop = t_end;
-    for (int face = 0; face < 2 * run->scene->dim; face++) {
+    for (int face = 0; face < SOLVER_FACES; face++) {
         double until = run->scene->face_until[face];
         stop = until > run->time && until < stop ? until : stop;
     }

@@ -130,15 +130,15 @@ static int read_scene(lua_State *L)
     return 0;
 }
 
-/* A place of the body, or of the first of several: a corner, or a ring's outermost point. */
+/* A place of the body, or of the first of several: a box's lower corner, or the outermost point along X of another. */
 static void place_of_body(const struct solver_scene *scene, double X[3])
 {
-    const struct solver_shape *shape = &scene->shape[0];
-    bool ring = scene->shape_count > 0 && shape->kind == SOLVER_SHAPE_RING;
+    const struct solver_shape *shape = scene->shape_count > 0 ? &scene->shape[0] : &scene->domain;
     memcpy(X, scene->shape_count > 0 ? shape->lower : scene->lower, 3 * sizeof *X);
-    if (ring) {
-        X[0] = shape->upper[0];
+    if (shape->kind != SOLVER_SHAPE_BOX) {
+        X[0] = shape->centre[0] + shape->outer;
         X[1] = shape->centre[1];
+        X[2] = shape->kind == SOLVER_SHAPE_CYLINDER ? X[2] : shape->centre[2];
     }
 }
 

@@ -25,7 +25,7 @@ enum {
     SOLVER_GATES = 32,
     SOLVER_NAMED = 16,
     SOLVER_ROWS = 16,
-    SOLVER_FACES = 6,
+    SOLVER_FACES = 7,
     SOLVER_BODIES = 16
 };
 
@@ -39,8 +39,9 @@ enum solver_formula {
     SOLVER_MATERIAL_AT, /* material.at: E [Pa], nu, rho [kg/m^3] at X; without it they are the same everywhere */
     SOLVER_FACE_X0,     /* faces.X0.value: traction [Pa] or velocity [m/s]; X1, Y0, Y1, Z0, Z1 follow */
     SOLVER_FACE_Z1 = SOLVER_FACE_X0 + 5,
-    SOLVER_SHEAR_X0, /* faces.X0.traction: traction [Pa] of a roller; X1, Y0, Y1, Z0, Z1 follow */
-    SOLVER_SHEAR_Z1 = SOLVER_SHEAR_X0 + 5,
+    SOLVER_FACE_SURFACE, /* the same of the curved face of a round domain */
+    SOLVER_SHEAR_X0,     /* faces.X0.traction: traction [Pa] of a roller; X1, Y0, Y1, Z0, Z1 follow */
+    SOLVER_SHEAR_SURFACE = SOLVER_SHEAR_X0 + 6, /* no scene has it */
     SOLVER_FORMULAS
 };
 
@@ -183,9 +184,10 @@ struct solver_scene {
     char *text;               /* the whole file */
     char *overrides;          /* "KEY=value\n" lines as given, "" if none */
 
-    int dim;                   /* 1, 2, 3 */
-    double lower[3], upper[3]; /* box domain, or the box around all bodies [m] */
-    size_t shape_count;        /* 0: one body, the domain */
+    int dim;                    /* 1, 2, 3 */
+    double lower[3], upper[3];  /* box domain, or the box around a round one or around all bodies [m] */
+    struct solver_shape domain; /* its kind; without its box */
+    size_t shape_count;         /* 0: one body, the domain */
     struct solver_shape shape[SOLVER_BODIES];
     enum solver_lattice lattice;
     enum solver_wall_motion wall_motion;
@@ -219,7 +221,7 @@ struct solver_scene {
     char precision[SOLVER_NAME];       /* "double" */
     int threads;                       /* 0: as many as there are cores and the work is worth */
 
-    enum solver_face_kind face[SOLVER_FACES]; /* X0, X1, Y0, Y1, Z0, Z1 */
+    enum solver_face_kind face[SOLVER_FACES]; /* X0, X1, Y0, Y1, Z0, Z1, surface */
     char initial_from[SOLVER_NAME];           /* "formulas", or "oracle": see solver_scene_start_from */
     char loads_from[SOLVER_NAME];             /* likewise for what drives the body: see solver_scene_drive_from */
     double face_until[SOLVER_FACES];          /* [s] a moved face is free after this time; infinite otherwise */

@@ -1,5 +1,6 @@
-/* Reads where bodies are: a box by `domain` or several shapes by `bodies`, and what lattice and faces allow each other.
- */
+/* Reads where bodies are: a box or a round body by `domain` or several shapes by `bodies`, and what lattice and faces
+ * allow each other. */
+#include "solver/cloud.h"
 #include "solver/scene_internal.h"
 
 #include <float.h>
@@ -129,17 +130,63 @@ static void read_bodies(lua_State *L, struct solver_scene *scene)
         scene_refuse(L, "perturb: expected 0 with bodies, got %g; a domain can be perturbed", scene->perturb);
 }
 
-static void require_domain(lua_State *L)
+/* --- a domain --- */
+
+static const char *const shape_names[] = {"box", "disc", "ball", "cylinder"};
+
+/* Refuses a domain that lacks one of its shape's keys, or has one of another's. */
+static void check_domain_keys(lua_State *L, enum solver_shape_kind shape)
 {
-    static const char *const keys[] = {"domain.lower", "domain.upper"};
-    for (int i = 0; i < 2; i++) {
-        const struct solver_scene_key *key = &solver_scene_keys()[scene_key_find(keys[i])];
-        scene_lua_push(L, keys[i]);
-        if (lua_isnil(L, -1))
+    static const struct {
+        const char *key;
+        bool of[4]; /* the shapes, in their order */
+    } wanted[] = {{"domain.lower", {1, 0, 0, 0}},
+                  {"domain.upper", {1, 0, 0, 0}},
+                  {"domain.centre", {0, 1, 1, 1}},
+                  {"domain.radius", {0, 1, 1, 1}},
+                  {"domain.length", {0, 0, 0, 1}}};
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        const struct solver_scene_key *key = &solver_scene_keys()[scene_key_find(wanted[i].key)];
+        scene_lua_push(L, key->key);
+        bool given = !lua_isnil(L, -1);
+        if (given && !wanted[i].of[shape])
+            scene_refuse(L, "%s: a domain of domain.shape = \"%s\" has none", key->key, shape_names[shape]);
+        if (!given && wanted[i].of[shape])
             scene_refuse(L, "%s: missing; expected %s (%s), or bodies = { ... } in place of domain", key->key,
                          key->expects, key->meaning);
         lua_pop(L, 1);
     }
+}
+
+/* The plain keys are there; adds the box around. */
+static void check_round(lua_State *L, struct solver_scene *scene)
+{
+    const struct solver_shape *shape = &scene->domain;
+    const char *name = shape_names[shape->kind];
+    int dim = shape->kind == SOLVER_SHAPE_DISC ? 2 : 3;
+    if (scene->dim != dim)
+        scene_refuse(L, "domain.shape: a %s lies in %dD; expected dim = %d, got %d", name, dim, dim, scene->dim);
+    if (scene->lattice != SOLVER_NODES)
+        scene_refuse(L, "lattice: a %s has particles on its surface; expected \"nodes\", got \"centres\"", name);
+    if (scene->perturb > 0)
+        scene_refuse(L, "perturb: expected 0 with a %s, got %g; a box can be perturbed", name, scene->perturb);
+    for (int d = 0; d < scene->dim; d++) {
+        double half = d == 2 && shape->kind == SOLVER_SHAPE_CYLINDER ? shape->length / 2 : shape->outer;
+        scene->lower[d] = shape->centre[d] - half;
+        scene->upper[d] = shape->centre[d] + half;
+    }
+}
+
+static void check_domain(lua_State *L, struct solver_scene *scene)
+{
+    bool box = scene->domain.kind == SOLVER_SHAPE_BOX;
+    check_domain_keys(L, scene->domain.kind);
+    if (box)
+        check_corners(L, scene->dim, "domain", scene->lower, scene->upper);
+    else
+        check_round(L, scene);
+    if (scene->reference_length == 0) /* not given */
+        scene->reference_length = box ? scene->upper[0] - scene->lower[0] : scene->domain.outer;
 }
 
 void scene_read_bodies(lua_State *L, struct solver_scene *scene)
@@ -151,28 +198,43 @@ void scene_read_bodies(lua_State *L, struct solver_scene *scene)
         scene_refuse(L, "bodies: the scene has a domain besides; expected one of the two");
     if (bodies)
         read_bodies(L, scene);
-    else {
-        require_domain(L);
-        check_corners(L, scene->dim, "domain", scene->lower, scene->upper);
-        if (scene->reference_length == 0) /* not given */
-            scene->reference_length = scene->upper[0] - scene->lower[0];
-    }
+    else
+        check_domain(L, scene);
     lua_pop(L, 2);
 }
 
 /* --- faces --- */
 
+/* Whether a domain has a face (0..6). */
+static bool has_face(const struct solver_scene *scene, int face)
+{
+    enum solver_shape_kind shape = scene->domain.kind;
+    return shape == SOLVER_SHAPE_BOX        ? face < SOLVER_SURFACE
+           : shape == SOLVER_SHAPE_CYLINDER ? face >= 4
+                                            : face == SOLVER_SURFACE;
+}
+
 void scene_check_faces(lua_State *L, const struct solver_scene *scene)
 {
-    for (int f = 0; f < 2 * scene->dim; f++) {
-        char key[16], kind[SOLVER_NAME];
-        snprintf(key, sizeof key, "faces.%c%d", "XYZ"[f / 2], f % 2);
-        if (scene->face[f] == SOLVER_FREE || scene->lattice == SOLVER_NODES)
+    for (int f = 0; f < SOLVER_FACES; f++) {
+        char key[16] = "faces.surface", kind[SOLVER_NAME];
+        if (f < SOLVER_SURFACE)
+            snprintf(key, sizeof key, "faces.%c%d", "XYZ"[f / 2], f % 2);
+        if (scene->face[f] == SOLVER_FREE)
             continue;
         scene_word_at(scene_face_kinds, (int)scene->face[f], kind, sizeof kind);
         if (scene->shape_count > 0)
             scene_refuse(L, "%s: '%s' is a condition on a face of the domain, and bodies are free all around", key,
                          kind);
+        if (!has_face(scene, f))
+            scene_refuse(L, "%s: a domain of domain.shape = \"%s\" has no such face", key,
+                         shape_names[scene->domain.kind]);
+        if (f == SOLVER_SURFACE &&
+            (scene->face[f] == SOLVER_SYMMETRIC || scene->face[f] == SOLVER_SKEW || scene->face[f] == SOLVER_ROLLER))
+            scene_refuse(L, "%s: '%s' is a condition on a plane; expected free, clamped, traction or motion", key,
+                         kind);
+        if (scene->lattice == SOLVER_NODES)
+            continue;
         if (solver_scene_wall(scene, f) == 0)
             scene_refuse(L,
                          "%s: '%s' acts on particles that lie on the face; expected lattice = \"nodes\", or free, "

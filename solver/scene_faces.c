@@ -1,4 +1,5 @@
 /* Reads the conditions on the faces of a body. */
+#include "solver/cloud.h"
 #include "solver/scene_internal.h"
 
 #include <float.h>
@@ -94,7 +95,7 @@ static int read_kind(lua_State *L, const struct solver_scene_key *key, int given
 static void read_face(lua_State *L, struct solver_scene *scene, const struct solver_scene_key *key, int face)
 {
     int given = lua_gettop(L);
-    if (face / 2 >= scene->dim)
+    if (face < SOLVER_SURFACE && face / 2 >= scene->dim)
         scene_refuse(L, "%s: a body of dim = %d has no such face", key->key, scene->dim);
     int kind = read_kind(L, key, given);
     bool valued = kind == SOLVER_TRACTION || is_moved(kind);

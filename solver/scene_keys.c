@@ -12,8 +12,10 @@
 #define OPTIONAL   ""
 #define ABOVE_ZERO DBL_MIN
 #define FACE_KINDS                                                                                                     \
-    "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f }, { kind = \"motion\", value = f, "    \
+    "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f }, { kind = \"motion\", value = f, "   \
     "free_after = t } or { kind = \"roller\", value = f, traction = f }"
+#define SURFACE_KINDS                                                                                                  \
+    "free, clamped, { kind = \"traction\", value = f } or { kind = \"motion\", value = f, free_after = t }"
 #define FORMULA "function(X, Y, Z, t) returning dim numbers"
 
 /* clang-format off */
@@ -23,8 +25,13 @@ X("title", TEXT, AT(title), 0, 0, 0, "", NEEDED, "text", "what the scene shows")
 X("source", TEXT, AT(source), 0, 0, 0, "", OPTIONAL, "text", "paper and section the scene is taken from")              \
 X("parameters", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "table of NAME = number", "numbers of the scene's own")          \
 X("dim", INTEGER, AT(dim), 1, 3, 0, "", NEEDED, "1, 2 or 3", "space dimensions")                                       \
+X("domain.shape", INDEX, AT(domain.kind), 0, 0, 0, "box disc ball cylinder", "box", "one of box, disc, ball, cylinder",    \
+  "disc in 2D, ball and cylinder along Z in 3D")                                                                       \
 X("domain.lower", NUMBERS, AT(lower), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "lower corner of the box")       \
 X("domain.upper", NUMBERS, AT(upper), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "upper corner of the box")       \
+X("domain.centre", NUMBERS, AT(domain.centre), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "of a round domain")     \
+X("domain.radius", NUMBER, AT(domain.outer), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a round domain")  \
+X("domain.length", NUMBER, AT(domain.length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a cylinder")     \
 X("bodies", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                       \
   "list of up to 16 { shape = \"box\", lower = { ... }, upper = { ... } } or { shape = \"ring\", centre = {x, y}, inner = r, outer = R }", \
   "several bodies, in place of domain")                                                                                \
@@ -35,7 +42,7 @@ X("wall", INTEGER, AT(wall), 1, 16, 0, "", "3", "whole number in [1, 16]",      
 X("wall_motion", INDEX, AT(wall_motion), 0, 0, 0, "rigid mirrored", "rigid", "one of rigid, mirrored",                  \
   "particles of walls move as the face, or against those of the body, so that the face has its velocity")             \
 X("reference_length", NUMBER, AT(reference_length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",            \
-  "spacing = reference_length / n; default: the first edge")                                                           \
+  "spacing = reference_length / n; default: the first edge, or the radius")                                                           \
 X("n", RESOLUTION, AT(n), 0, 0, 0, "", NEEDED, "whole number >= 1", "spacings along the reference length")             \
 X("levels", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing whole numbers >= 1",                    \
   "values of n for a convergence study; default: n alone")                                                             \
@@ -118,6 +125,7 @@ X("faces.Y0", FACE, 2, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lowe
 X("faces.Y1", FACE, 3, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper Y face; default free")               \
 X("faces.Z0", FACE, 4, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lower Z face; default free")               \
 X("faces.Z1", FACE, 5, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper Z face; default free")               \
+X("faces.surface", FACE, 6, 0, 0, 0, "", OPTIONAL, SURFACE_KINDS, "condition on a round domain's curved face; default free") \
 X("probes", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 { name = text, X = { ... } }",                     \
   "places whose motion is recorded over time")                                                                         \
 X("probe_scale", NUMBER, AT(probe_scale), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",                      \

@@ -58,9 +58,22 @@ static double ring_particles(lua_State *L, const struct solver_scene *scene, con
     return layers * pi * (ring->inner + ring->outer) / (scene->reference_length / n);
 }
 
+static double round_particles(lua_State *L, const struct solver_scene *scene, const char *key, double n)
+{
+    const struct solver_shape *shape = &scene->domain;
+    double along = 2 * whole_spacings(L, scene, key, n, "the domain's radius", shape->outer) + 1;
+    double depth = shape->kind == SOLVER_SHAPE_DISC ? 1
+                   : shape->kind == SOLVER_SHAPE_BALL
+                       ? along
+                       : whole_spacings(L, scene, key, n, "the domain's length", shape->length) + 1;
+    return along * along * depth;
+}
+
 static double count_particles(lua_State *L, const struct solver_scene *scene, const char *key, double n)
 {
     double particles = 0;
+    if (scene->shape_count == 0 && scene->domain.kind != SOLVER_SHAPE_BOX)
+        return round_particles(L, scene, key, n);
     if (scene->shape_count == 0)
         return box_particles(L, scene, key, n, "", scene->lower, scene->upper);
     for (size_t i = 0; i < scene->shape_count; i++) {

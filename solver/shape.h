@@ -1,14 +1,22 @@
-/* Shapes of which a cloud of several bodies is made. */
+/* Shapes of bodies. */
 #ifndef SOLVER_SHAPE_H
 #define SOLVER_SHAPE_H
 
-enum solver_shape_kind { SOLVER_SHAPE_BOX, SOLVER_SHAPE_RING };
+/* Those up to the cylinder are possible domains. A disc and a ring lie in 2D, a ball and a cylinder in 3D. */
+enum solver_shape_kind {
+    SOLVER_SHAPE_BOX,
+    SOLVER_SHAPE_DISC,
+    SOLVER_SHAPE_BALL,
+    SOLVER_SHAPE_CYLINDER, /* along Z */
+    SOLVER_SHAPE_RING
+};
 
 struct solver_shape {
     enum solver_shape_kind kind;
-    double lower[3], upper[3]; /* [m] corners of the box, or of the square around the ring */
-    double centre[2];          /* [m] of the ring; it lies in 2D */
-    double inner, outer;       /* [m] its radii */
+    double lower[3], upper[3]; /* [m] corners of the box, or of the one around another shape */
+    double centre[3];          /* [m] of any other shape */
+    double inner, outer;       /* [m] radii; only a ring has an inner one */
+    double length;             /* [m] of a cylinder */
 };
 
 #endif

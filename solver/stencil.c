@@ -120,9 +120,16 @@ bool solver_stencil_create(const struct solver_stencil_builder *builder, const s
     struct solver_stencil *stencil = NULL;
     *out = NULL;
     if (builder->closed && cloud->face_point_count == 0) {
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "stencil: %s closes over the faces of the body and needs particles on them; expected lattice = "
+            "\"nodes\", or another stencil, say sph",
+            builder->name);
+    }
+    if (builder->lattice_only && cloud->site == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT,
-                           "stencil: %s closes over the faces of a box and needs particles on them; expected lattice = "
-                           "\"nodes\", or another stencil, say sph",
+                           "stencil: %s works along the lines of a box's lattice, and a round body has none; expected "
+                           "closed, or another stencil for any cloud",
                            builder->name);
     }
     if (!solver_alloc((void **)&stencil, 1, sizeof *stencil, "stencil", error)) {

@@ -42,7 +42,7 @@ static bool list_oracles(struct solver_error *error)
         (void)printf("  %-24s %dD: %s\n", (*kind)->name, (*kind)->dim, (*kind)->summary);
         (void)printf("  %-24s source: %s\n", "", (*kind)->source);
         if ((*kind)->awaits != NULL) {
-            (void)printf("  %-24s judges no scene yet: the solver has no %s\n", "", (*kind)->awaits);
+            (void)printf("  %-24s the solver lacks %s: nothing is verified by it yet\n", "", (*kind)->awaits);
         }
         for (const struct oracle_parameter *parameter = (*kind)->parameter; parameter->name != NULL; parameter++) {
             (void)printf("  %-24s %s [%s]: %s\n", "", parameter->name, parameter->unit, parameter->help);

@@ -244,6 +244,12 @@ int verify_command_verify(const struct verify_options *options)
     if (strcmp(options->operand[0], "mms") == 0) {
         return verify_command_mms(options);
     }
+    if (options->operand_count > 1) {
+        struct solver_error many;
+        (void)solver_fail(&many, SOLVER_BAD_INPUT, "verify: one scene at a time; \"%.64s\" is one word too many",
+                          options->operand[1]);
+        return verify_complain(&many);
+    }
     struct work *work = calloc(1, sizeof *work);
     if (work == NULL) {
         (void)solver_fail(&error, SOLVER_NO_MEMORY, "no memory for a study");

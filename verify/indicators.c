@@ -83,7 +83,7 @@ static double half_diagonal(const struct solver_cloud *cloud)
  * not known to the history. */
 static void forget_what_is_not_conserved(const struct solver_scene *scene, double value[VERIFY_INDICATORS])
 {
-    for (int face = 0; face < 2 * scene->dim; face++) {
+    for (int face = 0; face < SOLVER_FACES; face++) {
         if (scene->face[face] != SOLVER_FREE || solver_scene_has(scene, SOLVER_BODY_FORCE)) {
             value[VERIFY_LINEAR_MOMENTUM] = value[VERIFY_ANGULAR_MOMENTUM] = NAN;
         }

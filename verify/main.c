@@ -43,7 +43,7 @@ static const struct verify_command commands[] = {
          "oracle's self-check fails; 2 the command line, the scene or a file is wrong; 3 the run broke down.",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_LEVELS | VERIFY_TAKES_JSON | VERIFY_TAKES_OUT | VERIFY_TAKES_MUTATIONS,
      .least = 1,
-     .most = 1,
+     .most = 2,
      .run = verify_command_verify},
     {.name = "render",
      .operands = "RECORD",

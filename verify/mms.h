@@ -32,8 +32,8 @@ struct verify_mms_case {
     size_t setting_count;
     char setting[VERIFY_MMS_SETTINGS][VERIFY_MMS_TEXT]; /* "KEY=value" */
     int level[VERIFY_MMS_LEVELS];                       /* n of the two levels */
-    double asked_p, asked; /* smallest order of p and of the others; 0: none is claimed, and what is found is told */
-    bool in_time;          /* cloud and spacing are fixed, levels are steps per CFL number: see verify_mms_time */
+    double asked[VERIFY_MMS_VARIABLES]; /* smallest order claimed; 0: none is, and what is found is told */
+    bool in_time; /* cloud and spacing are fixed, levels are steps per CFL number: see verify_mms_time */
 };
 
 struct verify_mms_result {
@@ -46,6 +46,11 @@ struct verify_mms_result {
     double seconds;
 };
 
+/* An error as small as this is round-off, of what is zero or exact: it has no order. */
+#define VERIFY_MMS_ROUND_OFF 1e-12
+
+/* Whether any order is claimed. */
+bool verify_mms_claims(const struct verify_mms_case *which);
 /* All cases: *cases is the caller's to free. False if there is no memory. */
 bool verify_mms_cases(struct verify_mms_case **cases, size_t *count, struct solver_error *error);
 

@@ -62,6 +62,18 @@ struct drive {
     const struct solver_scene *scene;
 };
 
+/* Outward unit normal of a face at X on it. */
+static void normal_at(const struct solver_scene *scene, int face, const double X[3], double normal[3])
+{
+    const struct solver_shape *domain = &scene->domain;
+    for (int i = 0; i < 3; i++) {
+        bool curved = i < scene->dim && (i < 2 || domain->kind == SOLVER_SHAPE_BALL);
+        normal[i] = face == SOLVER_SURFACE ? (curved ? (X[i] - domain->centre[i]) / domain->outer : 0)
+                    : i == face / 2        ? (face % 2 == 1 ? 1 : -1)
+                                           : 0;
+    }
+}
+
 /* Velocity or traction on a face, by the state there; the body force of a manufactured solution. */
 static void drive_of(const void *context, enum solver_formula formula, const double X[3], double t, double value[3])
 {
@@ -72,14 +84,16 @@ static void drive_of(const void *context, enum solver_formula formula, const dou
         return;
     }
     struct oracle_state state;
+    double normal[3];
     int face = (int)(formula - SOLVER_FACE_X0) % SOLVER_FACES;
     truth->kind->state(truth->oracle, X, t, &state);
-    if (formula <= SOLVER_FACE_Z1 && drive->scene->face[face] != SOLVER_TRACTION) {
+    if (formula <= SOLVER_FACE_SURFACE && drive->scene->face[face] != SOLVER_TRACTION) {
         memcpy(value, state.v, sizeof state.v);
         return;
     }
+    normal_at(drive->scene, face, X, normal);
     for (int i = 0; i < 3; i++) {
-        value[i] = (face % 2 == 1 ? 1 : -1) * state.P[3 * i + face / 2];
+        value[i] = state.P[3 * i] * normal[0] + state.P[3 * i + 1] * normal[1] + state.P[3 * i + 2] * normal[2];
     }
 }
 

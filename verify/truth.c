@@ -58,6 +58,11 @@ static bool find_kind(const struct solver_scene *scene, const struct oracle_kind
                            "%s: oracle: there is no oracle \"%s\"; assay list shows those there are", scene->path,
                            scene->oracle);
     }
+    if ((*kind)->awaits != NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: oracle: \"%s\" cannot judge a run, because the solver lacks %s", scene->path,
+                           scene->oracle, (*kind)->awaits);
+    }
     if ((*kind)->dim != scene->dim) {
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: oracle: \"%s\" is %dD and the scene is %dD", scene->path,
                            scene->oracle, (*kind)->dim, scene->dim);

@@ -1,6 +1,6 @@
 /* What every oracle must do, asked of every oracle there is: describe itself, refuse bad values, pass its own check,
- * and have a check that sees every single component of every field, a NaN, every fault of a list of fronts, and the
- * energies being off. */
+ * and have a check that sees every single component of every field, every extra scalar, a NaN, every fault of a list of
+ * fronts, and the energies being off. */
 #include "oracles/oracle.h"
 #include "tests/unit/unit.h"
 
@@ -29,6 +29,8 @@ static struct {
     double factor, shift, tilt, step; /* step: for X > 1 alone, where the joint of a typical body of two parts is */
     enum front_fault fault;
     double kinetic_factor, strain_factor;
+    double clock;            /* the state is that of t (1 + clock) */
+    int extra;               /* one extra scalar spoiled likewise; -1 for none */
     double largest[NUMBERS]; /* magnitudes seen, without the unit matrix of F */
 } spoil;
 
@@ -37,7 +39,7 @@ static const int UNIT_MATRIX = 9; /* F starts after u, v, p */
 static void spoiled_state(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state)
 {
     double n[NUMBERS];
-    spoil.kind->state(oracle, X, t, state);
+    spoil.kind->state(oracle, X, t * (1 + spoil.clock), state);
     memcpy(n, state, sizeof n);
     for (int i = 0; i < NUMBERS; i++) {
         double unit = i >= UNIT_MATRIX && i < UNIT_MATRIX + 9 && (i - UNIT_MATRIX) % 4 == 0 ? 1 : 0;
@@ -55,6 +57,14 @@ static void spoiled_energy(const struct oracle *oracle, double t, double *kineti
     spoil.kind->energy(oracle, t, kinetic, strain);
     *kinetic *= 1 + spoil.kinetic_factor;
     *strain *= 1 + spoil.strain_factor;
+}
+
+static void spoiled_extras(const struct oracle *oracle, const double X[3], double t, double value[ORACLE_EXTRAS])
+{
+    spoil.kind->extras(oracle, X, t, value);
+    if (spoil.extra >= 0) {
+        value[spoil.extra] *= 1 + spoil.factor;
+    }
 }
 
 /* The first front that moves, with its fault. */
@@ -101,12 +111,28 @@ static struct oracle_kind copy_of(const struct oracle_kind *kind)
 {
     memset(&spoil, 0, sizeof spoil);
     spoil.kind = kind;
-    spoil.component = -1;
+    spoil.component = spoil.extra = -1;
     struct oracle_kind copy = *kind;
     copy.state = spoiled_state;
     copy.energy = spoiled_energy;
+    copy.extras = kind->extras != NULL ? spoiled_extras : NULL;
     copy.fronts = kind->fronts != NULL ? spoiled_fronts : NULL;
     return copy;
+}
+
+/* The time, or one near the end of the kind's reach where that is sooner. */
+static double within_reach(const struct oracle_kind *kind, const struct oracle *oracle, double t)
+{
+    return kind->reach != NULL ? fmin(t, 0.9 * kind->reach(oracle)) : t;
+}
+
+static size_t extras_of(const struct oracle_kind *kind)
+{
+    size_t count = 0;
+    while (kind->extra != NULL && kind->extra[count].name != NULL) {
+        count++;
+    }
+    return count;
 }
 
 static bool all_finite(const double *value, size_t count)
@@ -117,6 +143,16 @@ static bool all_finite(const double *value, size_t count)
         }
     }
     return true;
+}
+
+static bool any_finite(const double *value, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (isfinite(value[i])) {
+            return true;
+        }
+    }
+    return false;
 }
 
 static void describes_itself(void)
@@ -136,6 +172,17 @@ static void describes_itself(void)
             }
         }
         CU_ASSERT_TRUE(parameters <= ORACLE_PARAMETERS);
+        size_t extras = extras_of(kind);
+        CU_ASSERT_TRUE_FATAL(extras <= ORACLE_EXTRAS);
+        CU_ASSERT_EQUAL(kind->extras == NULL, extras == 0);
+        for (size_t i = 0; i < extras; i++) {
+            const struct oracle_extra *e = &kind->extra[i];
+            CU_ASSERT_TRUE(strlen(e->name) > 0 && strlen(e->unit) > 0 && strlen(e->help) > 0);
+            for (size_t j = 0; j < i; j++) {
+                CU_ASSERT_STRING_NOT_EQUAL(e->name, kind->extra[j].name);
+            }
+        }
+        CU_ASSERT_TRUE(kind->awaits == NULL || strlen(kind->awaits) > 0);
         CU_ASSERT_EQUAL(kind->fronts == NULL, kind->smoothness == ORACLE_SMOOTH);
         CU_ASSERT_TRUE(kind->fronts == NULL || kind->dim == 1);
     }
@@ -173,26 +220,60 @@ static void answers_repeatably_with_finite_numbers(void)
     static const double place[][3] = {{0, 0, 0}, {0.3, 0.4, 0.5}, {1, 1, 1}};
     for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
         struct oracle *oracle = create_typical(*k), *again = create_typical(*k);
+        double t = within_reach(*k, oracle, 1e-3);
         for (size_t i = 0; i < sizeof place / sizeof *place; i++) {
             struct oracle_state a, b;
-            double n[2][NUMBERS], energy[4];
+            double n[2][NUMBERS], energy[4], extra[2][ORACLE_EXTRAS];
             memset(&a, 0x55, sizeof a);
             memset(&b, 0xaa, sizeof b); /* what a kind leaves unset differs */
-            (*k)->state(oracle, place[i], 1e-3, &a);
-            (*k)->state(again, place[i], 1e-3, &b);
+            (*k)->state(oracle, place[i], t, &a);
+            (*k)->state(again, place[i], t, &b);
             memcpy(n[0], &a, sizeof a);
             memcpy(n[1], &b, sizeof b);
             CU_ASSERT_TRUE(all_finite(n[0], NUMBERS));
             for (int j = 0; j < NUMBERS; j++) {
                 CU_ASSERT_TRUE(n[0][j] == n[1][j]);
             }
-            (*k)->energy(oracle, 1e-3, &energy[0], &energy[1]);
-            (*k)->energy(again, 1e-3, &energy[2], &energy[3]);
+            (*k)->energy(oracle, t, &energy[0], &energy[1]);
+            (*k)->energy(again, t, &energy[2], &energy[3]);
             CU_ASSERT_TRUE(all_finite(energy, 4) && energy[0] >= 0 && energy[1] >= 0);
             CU_ASSERT_TRUE(energy[0] == energy[2] && energy[1] == energy[3]);
+            for (size_t j = 0; (*k)->extras != NULL && j < extras_of(*k); j++) {
+                (*k)->extras(oracle, place[i], t, extra[0]);
+                (*k)->extras(again, place[i], t, extra[1]);
+                CU_ASSERT_TRUE(isfinite(extra[0][j]) && extra[0][j] == extra[1][j]);
+            }
         }
         (*k)->destroy(oracle);
         (*k)->destroy(again);
+    }
+}
+
+/* Just before the end of its reach a kind knows all, and just after it nothing. */
+static void says_nothing_beyond_its_reach(void)
+{
+    static const double place[3] = {0.3, 0.4, 0.5};
+    for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
+        struct oracle *oracle = create_typical(*k);
+        for (int late = 0; (*k)->reach != NULL && late < 2; late++) {
+            double t = (*k)->reach(oracle) * (late ? 1 + 1e-9 : 1 - 1e-9), energy[2], extra[ORACLE_EXTRAS] = {0};
+            double n[NUMBERS];
+            struct oracle_front front[ORACLE_FRONTS];
+            struct oracle_state state;
+            (*k)->state(oracle, place, t, &state);
+            (*k)->energy(oracle, t, &energy[0], &energy[1]);
+            memcpy(n, &state, sizeof state);
+            bool all = all_finite(n, NUMBERS) && all_finite(energy, 2),
+                 some = any_finite(n, NUMBERS) || any_finite(energy, 2);
+            for (size_t i = 0; i < extras_of(*k); i++) {
+                (*k)->extras(oracle, place, t, extra);
+                some = some || isfinite(extra[i]);
+                all = all && isfinite(extra[i]);
+            }
+            CU_ASSERT_TRUE(late ? !some : all);
+            CU_ASSERT_TRUE((*k)->fronts == NULL || ((*k)->fronts(oracle, t, front) == ORACLE_TOO_MANY_FRONTS) == late);
+        }
+        (*k)->destroy(oracle);
     }
 }
 
@@ -220,7 +301,7 @@ static void lists_fronts_in_order_and_repeatably(void)
         struct oracle *oracle = create_typical(*k);
         for (size_t i = 0; (*k)->fronts != NULL && i < 20; i++) {
             struct oracle_front front[ORACLE_FRONTS], again[ORACLE_FRONTS];
-            double t = 1e-4 * (double)i;
+            double t = within_reach(*k, oracle, 20e-4) * (double)i / 20;
             size_t count = (*k)->fronts(oracle, t, front);
             CU_ASSERT_TRUE_FATAL(count <= ORACLE_FRONTS);
             CU_ASSERT_EQUAL_FATAL((*k)->fronts(oracle, t, again), count);
@@ -304,10 +385,10 @@ static void spoil_each_component(const struct oracle_kind *kind, const struct or
         spoil.shift = 1e-6 * field_size(largest, i);
         CU_ASSERT_TRUE(caught(&copy, oracle, failed));
         spoil.shift = 0;
-        if (kind->fronts != NULL) { /* whose fields may be constant where they are smooth, and whose body has joints */
-            spoil.tilt = 1e-6 * field_size(largest, i);
-            CU_ASSERT_TRUE(caught(&copy, oracle, failed));
-            spoil.tilt = 0;
+        spoil.tilt = 1e-6 * field_size(largest, i); /* fields may be constant */
+        CU_ASSERT_TRUE(caught(&copy, oracle, failed));
+        spoil.tilt = 0;
+        if (kind->fronts != NULL) { /* whose body may have joints */
             spoil.step = 1e-6 * field_size(largest, i);
             CU_ASSERT_TRUE(caught(&copy, oracle, failed));
             spoil.step = 0;
@@ -315,6 +396,19 @@ static void spoil_each_component(const struct oracle_kind *kind, const struct or
         spoil.factor = 1e-6;
         spoil.shift = 0;
         CU_ASSERT_TRUE(largest[i] < 1e-3 * field_size(largest, i) || caught(&copy, oracle, failed));
+        spoil.factor = NAN;
+        CU_ASSERT_TRUE(caught(&copy, oracle, none));
+    }
+}
+
+static void spoil_each_extra(const struct oracle_kind *kind, const struct oracle *oracle, bool failed[ORACLE_LAWS])
+{
+    struct oracle_kind copy = copy_of(kind);
+    for (size_t i = 0; i < extras_of(kind); i++) {
+        bool none[ORACLE_LAWS] = {false};
+        spoil.extra = (int)i;
+        spoil.factor = 1e-6;
+        CU_ASSERT_TRUE(caught(&copy, oracle, failed));
         spoil.factor = NAN;
         CU_ASSERT_TRUE(caught(&copy, oracle, none));
     }
@@ -341,6 +435,7 @@ static void its_check_sees_every_component_and_every_line_can_fail(void)
         bool failed[ORACLE_LAWS] = {false};
         size_t count = 0;
         spoil_each_component(*k, oracle, failed);
+        spoil_each_extra(*k, oracle, failed);
         spoil_fronts(*k, oracle, failed);
         struct oracle_kind copy = copy_of(*k);
         spoil.kinetic_factor = 1e-6;
@@ -348,6 +443,9 @@ static void its_check_sees_every_component_and_every_line_can_fail(void)
         spoil.strain_factor = 1e-6; /* both: the total stays constant */
         CU_ASSERT_TRUE(caught(&copy, oracle, failed));
         spoil.strain_factor = NAN;
+        CU_ASSERT_TRUE(caught(&copy, oracle, failed));
+        copy = copy_of(*k);
+        spoil.clock = 1e-6;
         CU_ASSERT_TRUE(caught(&copy, oracle, failed));
         (void)oracle_self_check(*k, oracle, line, &count);
         for (size_t i = 0; i < count; i++) {
@@ -366,6 +464,7 @@ int main(void)
         {"describes itself", describes_itself},
         {"refuses each bad value", refuses_each_bad_value},
         {"answers repeatably with finite numbers", answers_repeatably_with_finite_numbers},
+        {"says nothing beyond its reach", says_nothing_beyond_its_reach},
         {"figures describe themselves", figures_describe_themselves},
         {"lists fronts in order and repeatably", lists_fronts_in_order_and_repeatably},
         {"passes its own check", passes_its_own_check},

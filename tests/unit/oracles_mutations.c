@@ -111,13 +111,6 @@ static void lame_mu(const double X[3], double t, double d, struct oracle_state *
     }
 }
 
-static void exchanged_energy(double d, struct energies *e)
-{
-    double shift = d * e->kinetic; /* the total stays right */
-    e->kinetic -= shift;
-    e->strain += shift;
-}
-
 static const struct {
     const char *name;
     spoil_state *state;
@@ -149,16 +142,9 @@ static void small_changes_are_caught(void)
     CU_ASSERT_FALSE(caught(NULL)); /* going through the copy is no fault */
     printf("\n");
     for (size_t i = 0; i < sizeof mutations / sizeof *mutations; i++) {
-        double smallest = INFINITY;
         now.state = mutations[i].state;
         now.energy = mutations[i].energy;
-        for (int exponent = -2; exponent >= -16; exponent--) {
-            now.d = pow(10, exponent);
-            if (!caught(NULL)) {
-                break;
-            }
-            smallest = now.d;
-        }
+        double smallest = smallest_caught(-2, -16, 1);
         printf("    %-28s caught down to %.0e\n", mutations[i].name, smallest);
         CU_ASSERT_TRUE(smallest <= mutations[i].caught * 1.5);
     }

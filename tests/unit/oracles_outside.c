@@ -127,6 +127,7 @@ static void leads_to_the_body(void)
 
 static void ask_fields(const struct oracle_kind *kind, const struct oracle *oracle)
 {
+    double t = kind->reach != NULL ? fmin(1e-3, 0.9 * kind->reach(oracle)) : 1e-3;
     for (int place = 0; place < PLACES; place++) {
         double X[3];
         struct oracle_state state;
@@ -134,7 +135,7 @@ static void ask_fields(const struct oracle_kind *kind, const struct oracle *orac
         if (kind->outside(oracle, X) > 0) {
             continue;
         }
-        kind->state(oracle, X, 1e-3, &state);
+        kind->state(oracle, X, t, &state);
         double number[sizeof state / sizeof(double)];
         memcpy(number, &state, sizeof state);
         bool finite = true;

@@ -21,13 +21,13 @@ static const char block[] =
     "local function each(v) local c = {} for i = 1, d do c[i] = v end return c end\n"
     "local function first(a, b, c) if d == 1 then return a elseif d == 2 then return a, b end return a, b, c end\n"
     "local sin, cos = math.sin, math.cos\n"
-    "domain = { lower = each(0), upper = each(1) }\n"
     "n = 4\n"
     "t_end = 1\n"
     "stencil, integrator, cfl, evolved = 'sbp2', 'tvd-rk2', 0.3, 'pFHJ'\n"
     "threads = 1\n";
 
 /* Unless what a test adds has one of its own. */
+static const char plain_domain[] = "domain = { lower = each(0), upper = each(1) }\n";
 static const char plain_material[] = "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2 }\n";
 
 /* A free body that deforms smoothly and drifts. */
@@ -60,7 +60,8 @@ static inline struct sample load_scene(const char *more, const char *format, va_
     CU_ASSERT_FATAL(handle >= 0);
     FILE *file = fdopen(handle, "w");
     CU_ASSERT_PTR_NOT_NULL_FATAL(file);
-    CU_ASSERT_FATAL(fprintf(file, "%s%s%s", block, strstr(more, "material = ") ? "" : plain_material, more) > 0);
+    CU_ASSERT_FATAL(fprintf(file, "%s%s%s%s", block, strstr(more, "domain = ") ? "" : plain_domain,
+                            strstr(more, "material = ") ? "" : plain_material, more) > 0);
     CU_ASSERT_EQUAL_FATAL(fclose(file), 0);
     if (!solver_scene_load(path, overrides, count, &sample.scene, &sample.error)) {
         printf("\n    %s: %s", words, sample.error.text);

@@ -1,4 +1,7 @@
-/* Scenes of several bodies, and of particles in the centres of cells: what is read, and what is refused. */
+/* Scenes of several bodies, of a round one, and of particles in the centres of cells: what is read, and what is
+ * refused.
+ */
+#include "solver/cloud.h"
 #include "solver/scene.h"
 #include "tests/unit/scene_files.h"
 
@@ -53,6 +56,29 @@ static void read_lattice(void)
     solver_scene_free(scene);
     scene = load("lattice=nodes");
     CU_ASSERT(solver_scene_wall(scene, 1) == 0 && solver_scene_wall(scene, 2) == 0);
+    solver_scene_free(scene);
+}
+
+static void read_round(void)
+{
+    write_changed(PLAIN_DOMAIN, "domain = { shape = 'disc', centre = {3, -1}, radius = 2 }\n"
+                                "faces = { surface = { kind = 'traction', value = function() return 0, 0 end } }");
+    struct solver_scene *scene = load("domain.radius=1.5");
+    char word[SOLVER_NAME];
+    CU_ASSERT(scene->domain.kind == SOLVER_SHAPE_DISC && scene->shape_count == 0 && scene->domain.outer == 1.5);
+    CU_ASSERT(scene->lower[0] == 1.5 && scene->lower[1] == -2.5 && scene->upper[0] == 4.5 && scene->upper[1] == 0.5);
+    CU_ASSERT(scene->reference_length == 1.5 && scene->face[SOLVER_SURFACE] == SOLVER_TRACTION);
+    CU_ASSERT(solver_scene_text(scene, "domain.shape", word, sizeof word) && strcmp(word, "disc") == 0);
+    CU_ASSERT(solver_scene_has(scene, SOLVER_FACE_SURFACE) && !solver_scene_has(scene, SOLVER_FACE_Z1));
+    solver_scene_free(scene);
+    static const char rod[] = "title, dim, n, t_end = 'rod', 3, 4, 1\n"
+                              "domain = { shape = 'cylinder', centre = {0, 0, 5}, radius = 2, length = 3 }\n"
+                              "material = { model = 'neo-hookean', E = 10, nu = 0.3, rho = 2 }\n"
+                              "body_force = function(X, Y) assert(X * X + Y * Y < 5, 'outside') return 0, 0, 0 end\n";
+    write_scene(rod, strlen(rod));
+    scene = load("faces.Z1.kind=clamped");
+    CU_ASSERT(scene->domain.kind == SOLVER_SHAPE_CYLINDER && scene->lower[2] == 3.5 && scene->upper[2] == 6.5);
+    CU_ASSERT(scene->face[5] == SOLVER_CLAMPED && scene->face[SOLVER_SURFACE] == SOLVER_FREE);
     solver_scene_free(scene);
 }
 
@@ -135,6 +161,53 @@ static void bad_bodies(void)
     check_refused(&flat);
 }
 
+static void bad_round(void)
+{
+#define DISC(more)  PLAIN_DOMAIN, "domain = { shape = 'disc', centre = {0, 0}, radius = 2" more
+#define SOLID(more) "dim = 2\n" PLAIN_DOMAIN, "dim = 3\ndomain = { centre = {0, 0, 0}, radius = 2, " more
+    static const struct bad bad[] = {
+        {PLAIN_DOMAIN, "domain = { shape = 'egg' }", 0,
+         "domain.shape: expected one of box, disc, ball, cylinder, got the text 'egg'"},
+        {PLAIN_DOMAIN, "domain = { shape = 'disc', radius = 2 }", 0,
+         "domain.centre: missing; expected list of dim numbers [m] (of a round domain)"},
+        {PLAIN_DOMAIN, "domain = { shape = 'disc', centre = {0, 0} }", 0,
+         "domain.radius: missing; expected number > 0"},
+        {PLAIN_DOMAIN, "domain = { shape = 'disc', centre = {0}, radius = 2 }", 0,
+         "domain.centre: expected a list of 2 numbers, got 1 entries"},
+        {PLAIN_DOMAIN, "domain = { shape = 'disc', centre = {0, 0}, radius = 0 }", 0,
+         "domain.radius: expected number > 0 [m], got 0"},
+        {DISC(", upper = {2, 2} }"), 0, "domain.upper: a domain of domain.shape = \"disc\" has none"},
+        {DISC(", length = 2 }"), 0, "domain.length: a domain of domain.shape = \"disc\" has none"},
+        {PLAIN_DOMAIN, "domain = { lower = {0, 0}, upper = {2, 1}, radius = 1 }", 0,
+         "domain.radius: a domain of domain.shape = \"box\" has none"},
+        {PLAIN_DOMAIN, "domain = { shape = 'ball', centre = {0, 0}, radius = 2 }", 0,
+         "domain.shape: a ball lies in 3D; expected dim = 3, got 2"},
+        {SOLID("shape = 'disc' }"), 0, "domain.shape: a disc lies in 2D; expected dim = 2, got 3"},
+        {SOLID("shape = 'cylinder' }"), 0, "domain.length: missing; expected number > 0 [m] (of a cylinder)"},
+        {SOLID("shape = 'cylinder', length = 2.3 }"), 0,
+         "n = 4: the domain's length, 2.3 m, is 4.6 spacings of 0.5 m; expected a whole number"},
+        {DISC(" }\nreference_length = 3"), 0,
+         "n = 4: the domain's radius, 2 m, is 2.66667 spacings of 0.75 m; expected a whole number"},
+        {SOLID("shape = 'ball' }"), "n=100000", "of memory; this machine has"},
+        {DISC(" }"), "lattice=centres", "lattice: a disc has particles on its surface; expected \"nodes\""},
+        {DISC(" }"), "perturb=0.1", "perturb: expected 0 with a disc, got 0.1"},
+        {DISC(" }\nfaces = { X0 = 'clamped' }"), 0, "faces.X0: a domain of domain.shape = \"disc\" has no such face"},
+        {SOLID("shape = 'cylinder', length = 2 }\nfaces = { Y1 = 'clamped' }"), 0,
+         "faces.Y1: a domain of domain.shape = \"cylinder\" has no such face"},
+        {0, "faces = { surface = 'clamped' }", 0, "faces.surface: a domain of domain.shape = \"box\" has no such face"},
+        {DISC(" }\nfaces = { surface = 'symmetric' }"), 0,
+         "faces.surface: 'symmetric' is a condition on a plane; expected free, clamped, traction or motion"},
+        {DISC(" }\nfaces = { surface = { kind = 'roller', value = function() return 0, 0 end } }"), 0,
+         "faces.surface: 'roller' is a condition on a plane"},
+        {DISC(" }\nfaces = { surface = { kind = 'traction', value = function(X) return X end } }"), 0,
+         "faces.surface.value at X = (2, 0, 0), t = 0: expected 2 numbers, got 1 values"},
+    };
+#undef DISC
+#undef SOLID
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        check_refused(&bad[i]);
+}
+
 static void bad_centres(void)
 {
 #define MOTION "{ kind = 'motion', value = function() return 0, 0 end"
@@ -163,8 +236,10 @@ int main(void)
     static const struct unit_test tests[] = {
         {"bodies", read_bodies},
         {"lattice", read_lattice},
+        {"round domains", read_round},
         {"formulas are tried within a body", formulas},
         {"bad bodies", bad_bodies},
+        {"bad round domains", bad_round},
         {"what centres cannot have", bad_centres},
     };
     return scene_files_main("solver scene of bodies", tests, sizeof tests / sizeof *tests);

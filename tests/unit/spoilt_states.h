@@ -1,5 +1,5 @@
-/* Oracles spoiled on purpose: the fields and energies of one go through functions that change them, and the self-check
- * of the true kind must see it. Here stand the faults that any oracle could have, relative size d. */
+/* Oracles spoiled on purpose: fields, extra scalars and energies of one go through functions that change them, and the
+ * self-check of the true kind must see it. Here stand the faults that any oracle could have, relative size d. */
 #ifndef TESTS_SPOILT_STATES_H
 #define TESTS_SPOILT_STATES_H
 
@@ -13,6 +13,7 @@ struct energies {
     double kinetic, strain;
 };
 typedef void spoil_energy(double d, struct energies *e);
+typedef void spoil_extras(const double X[3], double t, double d, double value[ORACLE_EXTRAS]);
 
 /* The true kind, the oracle checked, another one of the kind, and what is spoiled by how much. */
 static struct {
@@ -20,6 +21,7 @@ static struct {
     struct oracle *whole, *other;
     spoil_state *state;
     spoil_energy *energy;
+    spoil_extras *extras;
     double d;
 } now;
 
@@ -45,6 +47,17 @@ static inline void spoiled_energy(const struct oracle *oracle, double t, double 
     *strain = e.strain;
 }
 
+static inline void true_extras(const double X[3], double t, double value[ORACLE_EXTRAS])
+{
+    now.kind->extras(now.whole, X, t, value);
+}
+
+static inline void spoiled_extras(const struct oracle *oracle, const double X[3], double t, double value[ORACLE_EXTRAS])
+{
+    (void)oracle;
+    now.extras != NULL ? now.extras(X, t, now.d, value) : true_extras(X, t, value);
+}
+
 /* Whether the self-check sees it; raises *loosest, unless NULL, to the largest of its bounds. */
 static inline bool caught(double *loosest)
 {
@@ -53,11 +66,27 @@ static inline bool caught(double *loosest)
     size_t count = 0;
     spoiled.state = spoiled_state;
     spoiled.energy = spoiled_energy;
+    spoiled.extras = now.kind->extras != NULL ? spoiled_extras : NULL;
     bool holds = oracle_self_check(&spoiled, now.whole, line, &count);
     for (size_t i = 0; loosest != NULL && i < count; i++) {
         *loosest = fmax(*loosest, line[i].bound);
     }
     return !holds;
+}
+
+/* The smallest power of ten for d, from `first` down in steps to `last`, that is caught as all larger ones are;
+ * infinity if there is none. */
+static inline double smallest_caught(int first, int last, int step)
+{
+    double smallest = INFINITY;
+    for (int exponent = first; exponent >= last; exponent -= step) {
+        now.d = pow(10, exponent);
+        if (!caught(NULL)) {
+            break;
+        }
+        smallest = now.d;
+    }
+    return smallest;
 }
 
 static inline void scale(double *x, size_t count, double factor)
@@ -121,6 +150,12 @@ static inline void other_oracle(const double X[3], double t, double d, struct or
     now.kind->state(now.other, X, t, s);
 }
 
+static inline void other_extras(const double X[3], double t, double d, double value[ORACLE_EXTRAS])
+{
+    (void)d;
+    now.kind->extras(now.other, X, t, value);
+}
+
 static inline void sign_of_v(const double X[3], double t, double d, struct oracle_state *s)
 {
     (void)d;
@@ -149,6 +184,14 @@ static inline void nothing(const double X[3], double t, double d, struct oracle_
     s->F[0] = s->F[4] = s->F[8] = 1;
 }
 
+static inline void all_extras(const double X[3], double t, double d, double value[ORACLE_EXTRAS])
+{
+    true_extras(X, t, value);
+    for (size_t i = 0; now.kind->extra[i].name != NULL; i++) {
+        value[i] *= 1 + d;
+    }
+}
+
 static inline void kinetic_energy(double d, struct energies *e)
 {
     e->kinetic *= 1 + d;
@@ -163,6 +206,13 @@ static inline void both_energies(double d, struct energies *e)
 {
     e->kinetic *= 1 + d;
     e->strain *= 1 + d;
+}
+
+static inline void exchanged_energy(double d, struct energies *e)
+{
+    double shift = d * e->kinetic; /* the total stays right */
+    e->kinetic -= shift;
+    e->strain += shift;
 }
 
 static inline void infinite_energy(double d, struct energies *e)
