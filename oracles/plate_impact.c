@@ -40,7 +40,7 @@ static const struct oracle_parameter linear_parameters[] = {
 
 static const struct oracle_extra extra[] = {
     {"density", "kg/m^3", "mass per current volume"},
-    {"pressure", "Pa", "positive in compression"},
+    {"hydrostatic_pressure", "Pa", "positive in compression"},
     {"internal_energy", "J/kg", "per mass, above that of the material at rest"},
     {"sound_speed", "m/s", "isentropic, in the current configuration"},
     {0},

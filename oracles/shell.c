@@ -23,5 +23,5 @@ double shell_radius(const struct shell *shell, const double X[3])
 double shell_outside(const struct shell *shell, const double X[3])
 {
     double r = shell_radius(shell, X);
-    return fmax(0, fmax(r - shell->outer, shell->inner - r));
+    return r > shell->outer ? r - shell->outer : r < shell->inner ? shell->inner - r : 0 * r; /* NaN where X is */
 }
