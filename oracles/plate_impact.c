@@ -40,7 +40,6 @@ static const struct oracle_parameter linear_parameters[] = {
 
 static const struct oracle_extra extra[] = {
     {"density", "kg/m^3", "mass per current volume"},
-    {"hydrostatic_pressure", "Pa", "positive in compression"},
     {"internal_energy", "J/kg", "per mass, above that of the material at rest"},
     {"sound_speed", "m/s", "isentropic, in the current configuration"},
     {0},
@@ -80,9 +79,8 @@ static void extras(const struct oracle *o, const double X[3], double t, double v
     bool behind = shocked(o, X[0], t);
     double known = t <= reach(o) ? 1 : NAN;
     value[0] = known * o->given.rho / (1 - (behind ? o->eta : 0));
-    value[1] = known * (behind ? o->p : 0);
-    value[2] = known * (behind ? o->given.v0 / 2 * o->given.v0 : 0);
-    value[3] = known * o->sound[behind];
+    value[1] = known * (behind ? o->given.v0 / 2 * o->given.v0 : 0);
+    value[2] = known * o->sound[behind];
 }
 
 static double outside(const struct oracle *o, const double X[3])
@@ -115,7 +113,7 @@ static size_t figures(const struct oracle *o, struct oracle_figure figure[ORACLE
 {
     const struct oracle_figure all[] = {
         {"shock speed", "m/s", "in the material ahead of it", o->U},
-        {"pressure", "Pa", "behind the shocks", o->p},
+        {"pressure", "Pa", "behind the shocks, positive in compression", o->p},
         {"density", "kg/m^3", "behind the shocks", o->given.rho / (1 - o->eta)},
         {"internal energy", "J/kg", "behind the shocks, above that at rest", o->given.v0 / 2 * o->given.v0},
         {"sound speed", "m/s", "behind the shocks", o->sound[1]},

@@ -1,4 +1,5 @@
 #include "oracles/shell.h"
+#include "oracles/kind.h"
 
 #include <math.h>
 
@@ -23,5 +24,5 @@ double shell_radius(const struct shell *shell, const double X[3])
 double shell_outside(const struct shell *shell, const double X[3])
 {
     double r = shell_radius(shell, X);
-    return r > shell->outer ? r - shell->outer : r < shell->inner ? shell->inner - r : 0 * r; /* NaN where X is */
+    return oracle_outside_box(1, &shell->inner, &shell->outer, &r);
 }

@@ -181,8 +181,8 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
         const struct solver_constraint *constraint = &faces->constraint[c];
         double *at = v + constraint->particle * lanes;
         const double *of_image = v + constraint->image * lanes;
-        double velocity[3];
-        double image_velocity[3];
+        double velocity[3] = {0};
+        double image_velocity[3] = {0};
         bool mirrored = constraint->image != constraint->particle;
         if (!prescribe(constraint, body, constraint->particle, t, velocity, error) ||
             (mirrored && !prescribe(constraint, body, constraint->image, t, image_velocity, error))) {

@@ -6,7 +6,7 @@
  * multipliers (alpha, beta) per particle the change on a pair is
  *     w_ab [ alpha_a - alpha_b + (X_b - X_a)/2 . (beta_a + beta_b) ],
  * and the multipliers solve M (alpha, beta) = residuals, M sparse, symmetric and semi-definite: alpha quadratic with
- * beta = -grad alpha gives no change. Its condition number grows like n^6 (conjugate gradients: thousands of
+ * beta = grad alpha gives no change. Its condition number grows like n^6 (conjugate gradients: thousands of
  * iterations), so M, shifted by a round-off-sized multiple of the identity, is factorised once (CHOLMOD) and the
  * shift's effect is removed by iterating on the residual of C itself. */
 #include "solver/kernel.h"

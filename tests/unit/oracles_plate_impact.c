@@ -92,7 +92,7 @@ static void agrees_with_a_calculation_by_hand(void)
     CU_ASSERT_TRUE(near(s.u[0], 1000 * 0.5 / 6666, 1e-15) && s.v[0] == 0);
     CU_ASSERT_TRUE(near(s.F[0], 5666.0 / 6666, 1e-15) && near(s.P[4], -18.56481e9 * 5666 / 6666, 1e-4));
     kind->extras(oracle, X, t, extra);
-    CU_ASSERT_TRUE(near(extra[0], 2785 * 6666.0 / 5666, 1e-11) && extra[2] == 5e5);
+    CU_ASSERT_TRUE(near(extra[0], 2785 * 6666.0 / 5666, 1e-11) && extra[1] == 5e5);
     s = state_of(kind, oracle, 1.7, t);
     CU_ASSERT_TRUE(near(s.u[0], -0.1, 1e-16) && s.v[0] == -1000 && s.F[0] == 1 && s.P[0] == 0);
     kind->destroy(oracle);
@@ -157,10 +157,11 @@ static void march(size_t n, const struct oracle *oracle, int cells, double t, do
     memset(error, 0, 3 * sizeof *error);
     for (int i = 0; i < cells; i++) {
         double extra[ORACLE_EXTRAS], X[3] = {(i + 0.5) * h, 0, 0}, e = cell[i].E - cell[i].v * cell[i].v / 2;
+        struct oracle_state s = state_of(kind, oracle, X[0], t);
         kind->extras(oracle, X, t, extra);
-        error[0] += fabs(cell[i].v - state_of(kind, oracle, X[0], t).v[0]) / v0 / cells;
-        error[1] += fabs(cell[i].p - extra[1]) / figure_of(kind, oracle, "pressure") / cells;
-        error[2] += fabs(e - extra[2]) / figure_of(kind, oracle, "internal energy") / cells;
+        error[0] += fabs(cell[i].v - s.v[0]) / v0 / cells;
+        error[1] += fabs(cell[i].p + s.P[0]) / figure_of(kind, oracle, "pressure") / cells;
+        error[2] += fabs(e - extra[1]) / figure_of(kind, oracle, "internal energy") / cells;
     }
 }
 

@@ -27,7 +27,7 @@ stencil, support, integrator, cfl = "closed", 1.6, "rk4", 0.4
 initial = { from = "oracle" }
 
 oracle = { name = "breathing-sphere" }
-probes = { { name = "surface", X = {R, 0, 0} } }
+probes = { { name = "surface", X = {domain.radius, 0, 0} } }
 figures = { period = { measure = "period", probe = "surface" } }
 
 -- Largest errors at n = 12 and smallest orders from n = 8. After two periods P and u err by a lag of the phase, of second

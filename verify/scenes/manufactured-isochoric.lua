@@ -26,3 +26,9 @@ faces = ({
 })[dim]
 
 gates = { { p = 1e-2, P_all = 1 } }
+
+view = {
+    field = "pressure", range = {-0.2, 0.2}, bands = 12, -- Pa
+    direction = dim == 3 and {1, 0.8, 0.6} or {0, 0, 1}, up = dim == 3 and {0, 0, 1} or {0, 1, 0},
+    magnify = 1, size = {900, 900},
+}

@@ -26,3 +26,9 @@ faces = ({
 })[dim]
 
 gates = { { p = 1e-2, sigma_all = 1e-2 } }
+
+view = {
+    field = "pressure", range = {-4e-6, 4e-6}, bands = 12, -- Pa
+    direction = dim == 3 and {1, 0.8, 0.6} or {0, 0, 1}, up = dim == 3 and {0, 0, 1} or {0, 1, 0},
+    magnify = 5e4, size = {900, 900},
+}
