@@ -209,7 +209,7 @@ static void answer_at(const struct work *work, struct verify_sample *sample, siz
 static bool answer(struct work *work, const struct verify_sample *places, double time, struct solver_error *error)
 {
     const struct oracle_kind *kind = work->truth.kind;
-    size_t of[VERIFY_SAMPLE_FIELDS];
+    size_t of[VERIFY_SAMPLE_FIELDS] = {0};
     struct verify_sample *sample = verify_samples_add(&work->answers, places->place, error);
     if (sample == NULL || !verify_sample_points(sample, places->count, kind->dim, error) ||
         !add_fields(kind, sample, of, error) || (places->weight != NULL && !verify_sample_weights(sample, error))) {

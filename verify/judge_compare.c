@@ -136,6 +136,10 @@ static bool is_known(const struct oracle_state *state)
 static bool ask_oracle(struct comparison *c)
 {
     const struct oracle_kind *kind = c->truth->kind;
+    if (kind->reach != NULL && c->level->time > kind->reach(c->truth->oracle)) {
+        return verify_sample_refuse(c->sample, c->error, "is of t = %.9g s; the oracle \"%s\" reaches to %.9g s",
+                                    c->level->time, kind->name, kind->reach(c->truth->oracle));
+    }
     for (size_t a = 0; a < c->sample->count; a++) {
         const double *X = c->X + 3 * a;
         kind->state(c->truth->oracle, X, c->level->time, &c->state[a]);

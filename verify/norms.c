@@ -271,13 +271,13 @@ static struct verify_norms measure(enum verify_field field, const struct solver_
     return verify_norms_field(output->cloud->count, width, output->V, computed, exact);
 }
 
-void verify_norms_keep(double out[VERIFY_NORMS], struct verify_norms norms)
+void verify_norms_keep(double error[VERIFY_NORMS], struct verify_norms norms)
 {
-    out[0] = norms.relative_l2;
-    out[1] = norms.absolute_l2;
-    out[2] = norms.relative_max;
-    out[3] = norms.absolute_max;
-    out[4] = norms.relative_l1;
+    error[0] = norms.relative_l2;
+    error[1] = norms.absolute_l2;
+    error[2] = norms.relative_max;
+    error[3] = norms.absolute_max;
+    error[4] = norms.relative_l1;
 }
 
 static void keep(double *error, enum verify_field field, struct verify_norms norms)

@@ -186,19 +186,22 @@ static bool refuse_missing(const struct oracle_kind *kind, const bool *given, st
                        kind->name, missing);
 }
 
-static bool find_named(const char *name, const struct oracle_kind **kind, struct solver_error *error)
+/* NULL, with the error, if there is none of that name. */
+static const struct oracle_kind *find_named(const char *name, struct solver_error *error)
 {
     const char *names[256];
     size_t count = 0;
-    *kind = name != NULL ? verify_kind_find(name) : NULL;
+    const struct oracle_kind *kind = oracle_find(name);
     for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL && count < sizeof names / sizeof *names; k++) {
         names[count++] = (*k)->name;
     }
-    const char *meant = *kind == NULL && name != NULL ? verify_suggest(name, names, count) : NULL;
-    return *kind != NULL ||
-           solver_fail(error, SOLVER_BAD_INPUT, "there is no oracle \"%s\"%s%s%s", name != NULL ? name : "",
-                       meant != NULL ? "; did you mean " : "", meant != NULL ? meant : "",
-                       meant != NULL ? "?" : "; assay list oracles shows those there are");
+    const char *meant = kind == NULL ? verify_suggest(name, names, count) : NULL;
+    if (kind == NULL) {
+        (void)solver_fail(error, SOLVER_BAD_INPUT, "there is no oracle \"%s\"%s%s%s", name,
+                          meant != NULL ? "; did you mean " : "", meant != NULL ? meant : "",
+                          meant != NULL ? "?" : "; assay list oracles shows those there are");
+    }
+    return kind;
 }
 
 bool verify_truth_tell(const char *name, const struct solver_named *told, size_t count, bool typical,
@@ -206,18 +209,18 @@ bool verify_truth_tell(const char *name, const struct solver_named *told, size_t
 {
     struct teller teller = {.where = "--param", .key = "", .told = told, .count = count};
     bool given[ORACLE_PARAMETERS] = {false}, all = true;
-    *truth = (struct verify_truth){.kind = NULL};
-    if (!find_named(name, &truth->kind, error) || !few_enough(truth->kind, error) ||
-        !refuse_unknown(&teller, truth->kind, error)) {
+    const struct oracle_kind *kind = find_named(name, error);
+    *truth = (struct verify_truth){.kind = kind};
+    if (kind == NULL || !few_enough(kind, error) || !refuse_unknown(&teller, kind, error)) {
         return false;
     }
-    for (const struct oracle_parameter *p = truth->kind->parameter; p->name != NULL; p++) {
+    for (const struct oracle_parameter *p = kind->parameter; p->name != NULL; p++) {
         size_t i = truth->parameter_count++;
         truth->value[i] = p->typical;
         given[i] = is_told(&teller, p, &truth->value[i]) || typical;
         all = all && given[i];
     }
-    return (all || refuse_missing(truth->kind, given, error)) && create("--param", truth, error);
+    return (all || refuse_missing(kind, given, error)) && create("--param", truth, error);
 }
 
 bool verify_truth_open(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error)

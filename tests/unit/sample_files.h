@@ -69,6 +69,15 @@ static inline void sample_refused_text(const char *text, const char *words)
     sample_refused(text, strlen(text), words);
 }
 
+static inline bool same_numbers(const double *a, const double *b, size_t count)
+{
+    size_t i = 0;
+    while (i < count && a[i] == b[i]) {
+        i++;
+    }
+    return i == count;
+}
+
 static inline const struct verify_sample_field *sample_field(const struct verify_sample *sample, const char *name)
 {
     for (size_t i = 0; i < sample->field_count; i++) {

@@ -328,6 +328,49 @@ static void refuses_levels_that_do_not_match(void)
     }
 }
 
+/* A name that two fields go by would be compared with either: with pressures of both signs, for instance. */
+static void every_name_is_of_one_field(void)
+{
+    for (const struct oracle_kind *const *kind = oracle_kinds(); *kind != NULL; kind++) {
+        size_t fields = verify_judged_count(*kind);
+        for (size_t i = VERIFY_STATE_FIELDS; i < fields; i++) {
+            for (size_t j = 0; j < i; j++) {
+                bool other = !verify_judged_is(*kind, j, verify_judged_field(*kind, i).name);
+                if (!other) {
+                    printf("%s: %s\n", (*kind)->name, verify_judged_field(*kind, i).name);
+                }
+                CU_ASSERT_TRUE(other);
+            }
+        }
+        CU_ASSERT_TRUE(fields <= VERIFY_JUDGED_FIELDS);
+    }
+}
+
+/* Scalars that the oracle has beside the state, at a time that it reaches and at one that it does not. */
+static void extras_and_reach(void)
+{
+    begin("plate-impact-stiffened");
+    struct verify_sample *sample = verify_samples_add(&given, "made.h5", &why);
+    CU_ASSERT_TRUE_FATAL(sample != NULL && verify_sample_points(sample, 2, 1, &why));
+    double reach = truth.kind->reach(truth.oracle), value[ORACLE_EXTRAS];
+    sample->needs_units = sample->has_unit = true;
+    (void)snprintf(sample->unit, sizeof sample->unit, "m");
+    sample->time = (struct verify_sample_number){.value = reach / 2, .unit = "s", .has_unit = true};
+    struct verify_sample_field *density = add(sample, "density", 1, "kg/m^3");
+    for (size_t a = 0; a < 2; a++) {
+        truth.kind->extras(truth.oracle, sample->X + 3 * a, reach / 2, value);
+        density->value[a] = 1.01 * value[0];
+    }
+    CU_ASSERT_TRUE_FATAL(compare(sample));
+    CU_ASSERT_TRUE(near(error_called("density"), 0.01) && near(error_called("density_max"), 0.01));
+    char meaning[VERIFY_JUDGED_MEANING];
+    CU_ASSERT_STRING_EQUAL(verify_judged_meaning(truth.kind, verify_judged_find(truth.kind, "density_abs"), meaning),
+                           "absolute L2 error of the mass per current volume");
+    CU_ASSERT_STRING_EQUAL(verify_judged_unit(truth.kind, verify_judged_find(truth.kind, "density_abs")), "kg/m^3");
+    sample->time.value = reach * 2;
+    refused(sample, "reaches to");
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -340,6 +383,8 @@ int main(void)
         {"gaps are outside", gaps_are_outside},
         {"orders and gates", orders_and_gates},
         {"refuses gates", refuses_gates},
+        {"every name is of one field", every_name_is_of_one_field},
+        {"extras and reach", extras_and_reach},
         {"refuses levels that do not match", refuses_levels_that_do_not_match},
     };
     int code = unit_main("verify: judge", tests, sizeof tests / sizeof *tests);

@@ -55,10 +55,10 @@ static void what_is_read_comes_back(void)
         CU_ASSERT_STRING_EQUAL(a->place, b->place);
         CU_ASSERT_STRING_EQUAL(a->time.unit, b->time.unit);
         CU_ASSERT_TRUE(a->count == b->count && a->dim == b->dim && a->time.value == b->time.value && isnan(b->h.value));
-        CU_ASSERT_TRUE(b->field_count == 1 && memcmp(a->X, b->X, 3 * POINTS * sizeof(double)) == 0);
-        CU_ASSERT_TRUE(memcmp(a->field[0].value, b->field[0].value, 9 * POINTS * sizeof(double)) == 0);
+        CU_ASSERT_TRUE(b->field_count == 1 && same_numbers(a->X, b->X, 3 * (size_t)POINTS));
+        CU_ASSERT_TRUE(same_numbers(a->field[0].value, b->field[0].value, 9 * (size_t)POINTS));
         CU_ASSERT_TRUE((a->weight == NULL) == (b->weight == NULL));
-        CU_ASSERT_TRUE(a->weight == NULL || memcmp(a->weight, b->weight, POINTS * sizeof(double)) == 0);
+        CU_ASSERT_TRUE(a->weight == NULL || same_numbers(a->weight, b->weight, POINTS));
     }
     verify_samples_free(&here);
 }

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-enum { MOST = 1 << 16, TEXTS = 3000, HDF5S = 150 };
+enum { MOST = 1 << 16, TEXTS = 3000, HDF5S = 80 };
 
 static uint64_t seed = 1;
 static unsigned char bytes[2 * MOST];
