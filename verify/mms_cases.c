@@ -95,21 +95,47 @@ static struct verify_mms_case *add_upwind(struct list *list, const char *family,
 static const char *const evolved_sets[] = {"pF", "pFJ", "pFHJ"};
 enum { EVOLVED_SETS = 3 };
 
-/* Everything with everything, in the plane; in a line what differs there. */
-static void add_large_strain(struct list *list)
+/* What is asked of the levels of a study that is one of many: order 2 is met, from below, by finer ones. */
+static const double second_order_coarse[VERIFY_MMS_VARIABLES] = {1.7, 1.7, 1.5, 1.5, 1.7, 1.7};
+
+/* The claims themselves, at levels fine enough to hold them. */
+static void add_claims(struct list *list)
+{
+    for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
+        for (int b = 0; s->closed && b < BOUNDARIES; b++) {
+            struct upwind of = {s, "pFHJ", "neo-hookean", 2, b};
+            struct verify_mms_case *which = add_upwind(list, "large strain, 2D, fine", "manufactured", of);
+            which->level[0] = 32;
+            which->level[1] = 64;
+        }
+    }
+}
+
+/* Everything with everything, in the plane. */
+static void add_plane(struct list *list)
 {
     for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
         for (const struct solver_material_model *m = solver_material_models(); m->name != NULL; m++) {
-            for (int e = 0; e < EVOLVED_SETS; e++) {
-                for (int b = 0; b < BOUNDARIES; b++) {
-                    struct upwind of = {s, evolved_sets[e], m->name, 2, b};
-                    struct verify_mms_case *which = add_upwind(list, "large strain, 2D", "manufactured", of);
-                    which->level[0] = 20;
-                    which->level[1] = 40;
+            for (int eb = 0; eb < EVOLVED_SETS * BOUNDARIES; eb++) {
+                struct upwind of = {s, evolved_sets[eb / BOUNDARIES], m->name, 2, eb % BOUNDARIES};
+                struct verify_mms_case *which = add_upwind(list, "large strain, 2D", "manufactured", of);
+                if (s->closed && s->boundary < 2) {
+                    claim(which, second_order_coarse);
                 }
+                which->level[0] = 16;
+                which->level[1] = 32;
             }
-            for (int b = 0; b < BOUNDARIES - 1; b++) { /* in a line a roller is a moved face */
-                struct upwind of = {s, "pFJ", m->name, 1, b};
+        }
+    }
+}
+
+/* In a line H is 1, and a roller a moved face. */
+static void add_line(struct list *list)
+{
+    for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
+        for (const struct solver_material_model *m = solver_material_models(); m->name != NULL; m++) {
+            for (int eb = 0; eb < (EVOLVED_SETS - 1) * (BOUNDARIES - 1); eb++) {
+                struct upwind of = {s, evolved_sets[eb / (BOUNDARIES - 1)], m->name, 1, eb % (BOUNDARIES - 1)};
                 struct verify_mms_case *which = add_upwind(list, "large strain, 1D", "manufactured", of);
                 which->level[0] = 32;
                 which->level[1] = 64;
@@ -122,7 +148,7 @@ static void add_large_strain(struct list *list)
  * have not come to their order where faces are moved: what they claim is what was measured. */
 static void add_space(struct list *list)
 {
-    static const double measured[VERIFY_MMS_VARIABLES] = {1.8, 1.6, 1.1, 1.2, 1.3, 1.2};
+    static const double measured[VERIFY_MMS_VARIABLES] = {1.7, 1.6, 1.1, 1.2, 1.3, 1.2};
     for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
         for (int b = 0; b < BOUNDARIES; b++) {
             struct upwind of = {s, "pFHJ", "neo-hookean", 3, b};
@@ -160,18 +186,23 @@ static void add_perturbed(struct list *list)
     }
 }
 
+/* At these levels, as measured, a little below what the stencils claim. */
 static void add_isochoric(struct list *list)
 {
+    static const double second[VERIFY_MMS_VARIABLES] = {1.8, 1.8, 1.4, 1.4, 1.8, 1.8};
+    static const double third[VERIFY_MMS_VARIABLES] = {2.7, 2.8, 2.6, 2.6, 2.6, 2.6};
     for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
         for (int e = 0; e < EVOLVED_SETS; e++) {
             for (int b = 0; b < BOUNDARIES; b++) {
                 struct upwind of = {s, evolved_sets[e], "neo-hookean", 2, b};
                 struct verify_mms_case *which =
                     add_upwind(list, "volumes kept, 2D, nu = 0.4999", "manufactured-isochoric", of);
-                which->level[0] = 16;
-                which->level[1] = 32;
+                which->level[0] = 12;
+                which->level[1] = 24;
                 if (e == 0) { /* F alone lets volumes drift, and is as stiff against that: it locks */
                     claim(which, nothing);
+                } else if (s->closed) {
+                    claim(which, s->boundary < 2 ? second : third);
                 }
             }
         }
@@ -186,6 +217,9 @@ static void add_waves(struct list *list)
                 static const char *const family[] = {"small waves, 1D", "small waves, 2D"};
                 struct upwind of = {s, "pF", "linear-elastic", dim, b};
                 struct verify_mms_case *which = add_upwind(list, family[dim - 1], "manufactured-waves", of);
+                if (s->closed && s->boundary < 2) {
+                    claim(which, second_order_coarse);
+                }
                 which->level[0] = 20;
                 which->level[1] = 40;
             }
@@ -242,7 +276,9 @@ static void add_time(struct list *list)
 bool verify_mms_cases(struct verify_mms_case **cases, size_t *count, struct solver_error *error)
 {
     struct list list = {.cases = NULL};
-    add_large_strain(&list);
+    add_claims(&list);
+    add_plane(&list);
+    add_line(&list);
     add_space(&list);
     add_perturbed(&list);
     add_isochoric(&list);
