@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 PROGRAM, SAMPLES, FOLDER = sys.argv[1:]
-WANTED = 50
+WANTED, BATCH = 48, 12
 SANITIZER = re.compile(r"ERROR: (Address|Leak|UndefinedBehavior)Sanitizer|runtime error:")
 IN_HDF5 = re.compile(r"^ *#[0-4] .*libhdf5", re.M)
 LOST = "did not survive"
@@ -134,7 +134,7 @@ def main():
             said = refused(ending, edits(whole.decode(), table), True)
         tried = 0
         while (said < WANTED or tried == 0) and tried < 4 * WANTED:
-            batch = [damage(whole, chance) for _ in range(WANTED // 2 if not table else WANTED // 4)]
+            batch = [damage(whole, chance) for _ in range(BATCH)]
             said += refused("damaged." + ending, batch, False)
             tried += len(batch)
         if said < WANTED:
