@@ -7,7 +7,7 @@ foreach(scene manufactured manufactured-isochoric manufactured-waves)
   assay_test(gate-${scene} LABELS mms gate COMMAND $<TARGET_FILE:assay> verify ${scene} --out gates/${scene})
 endforeach()
 assay_test(mms-knows-its-families LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 2
-  "no family of studies is called \"in space\"; there are \"large strain, 2D\"" $<TARGET_FILE:assay> verify mms "in space")
+  "no family of studies is called \"in space\"; there are \"large strain, 2D, fine\"" $<TARGET_FILE:assay> verify mms "in space")
 assay_test(mms-takes-no-keys LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 2
   "takes neither --set nor --levels" $<TARGET_FILE:assay> verify mms --set n=8)
 assay_test(mutations-stand-alone LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 2 "stands alone"
