@@ -175,6 +175,7 @@ static bool build(struct solver_run *run, struct solver_error *error)
     size_t rows = run->scheme->fields(run->system, table);
     if (!solver_faces_create(&run->body, &geometry, &run->faces, error) ||
         !solver_contact_create(&run->body, geometry.V, &run->contact, error) ||
+        !solver_projection_create(&run->body, &run->faces, geometry.V, &run->projection, error) ||
         !solver_state_create(&run->state, run->cloud->count, scene->dim, run->integrator, table, rows, error)) {
         return false;
     }
@@ -219,6 +220,7 @@ void solver_run_free(struct solver_run *run)
     solver_state_free(&run->state);
     solver_faces_free(&run->faces);
     solver_contact_free(&run->contact);
+    solver_projection_free(&run->projection);
     if (run->system != NULL) {
         run->scheme->destroy(run->system);
     }

@@ -4,6 +4,7 @@
 
 #include "solver/contact.h"
 #include "solver/faces.h"
+#include "solver/projection.h"
 #include "solver/run.h"
 #include "solver/scheme.h"
 #include "solver/state.h"
@@ -19,6 +20,7 @@ struct solver_run {
     const struct solver_integrator *integrator;
     struct solver_faces faces;
     struct solver_contact contact;
+    struct solver_projection projection;
     struct solver_state state;
     double time, external; /* [s], [J] */
     size_t step;

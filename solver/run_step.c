@@ -46,17 +46,24 @@ bool solver_run_check(struct solver_run *run, struct solver_error *error)
         run->scheme->advice);
 }
 
-/* Rates of the present state at time t, and the power of the loads. */
-static bool evaluate(struct solver_run *run, double t, double dt, double *power, struct solver_error *error)
+/* Rates of the present state in a stage of a step, and the power of the loads. */
+static bool evaluate(struct solver_run *run, int s, double dt, double *power, struct solver_error *error)
 {
     struct solver_state *state = &run->state;
+    const struct solver_stage *stage = &run->integrator->stage[s];
+    double t = run->time + stage->time * dt;
     if (!run->scheme->evaluate(run->system, t, dt, error)) {
         return false;
+    }
+    if (run->projection.on) {
+        solver_projection_note(&run->projection, state, stage);
     }
     struct solver_geometry geometry = run->scheme->geometry(run->system);
     return solver_faces_load(&run->faces, &run->body, &geometry, t, state->lanes, state->v, state->v_rate, power,
                              error) &&
-           solver_contact_act(&run->contact, state->x, state->v, state->lanes, t, dt, state->v_rate, error);
+           solver_contact_act(&run->contact, state->x, state->v, state->lanes, t, dt, state->v_rate, error) &&
+           (!run->projection.on ||
+            solver_projection_act(&run->projection, state, stage, s + 1 == run->integrator->stages, dt, error));
 }
 
 /* One stage's update of the block's entries [first, last). The first stage of every integrator sets out from the state
@@ -151,7 +158,7 @@ static bool stages(struct solver_run *run, double dt, double *work, struct solve
         const struct solver_stage *stage = &integrator->stage[s];
         double next = s + 1 < integrator->stages ? integrator->stage[s + 1].time : 1.0;
         double power;
-        bool known = evaluate(run, run->time + stage->time * dt, dt, &power, error);
+        bool known = evaluate(run, s, dt, &power, error);
         if (!known || !update(run, stage, run->time + next * dt, dt, error)) {
             if (known || s > 0) { /* else there is nothing to take back, and no start of this step yet */
                 take_back(run);

@@ -204,10 +204,11 @@ struct solver_scene {
 
     char scheme[SOLVER_NAME]; /* "upwind", "ulsph" */
     enum solver_evolved evolved;
-    char stencil[SOLVER_NAME];        /* "sph", "closed", "sbp2", "sbp4" */
-    double support;                   /* support radius / spacing */
-    char reconstruction[SOLVER_NAME]; /* "stencil", "least-squares", "none" */
-    char volume_flux[SOLVER_NAME];    /* dissipation of J by the jump of "pressure" or of the whole "stress" */
+    char stencil[SOLVER_NAME];          /* "sph", "closed", "sbp2", "sbp4" */
+    double support;                     /* support radius / spacing */
+    char reconstruction[SOLVER_NAME];   /* "stencil", "least-squares", "none" */
+    char angular_momentum[SOLVER_NAME]; /* "free", "projected" (projection.h) */
+    char volume_flux[SOLVER_NAME];      /* dissipation of J by the jump of "pressure" or of the whole "stress" */
     struct solver_ulsph_terms ulsph;
     int contact_law;         /* enum solver_contact_law */
     double contact_distance; /* [m]; 0: the spacing */

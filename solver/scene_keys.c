@@ -68,6 +68,8 @@ X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares no
   "one of stencil, least-squares, none", "slopes of the linear reconstruction at the Riemann states")                  \
 X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \
   "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
+X("angular_momentum", WORD, AT(angular_momentum), 0, 0, 0, "free projected", "free", "one of free, projected",           \
+  "as the scheme leaves it, or kept by the least change of the forces within the body (Appendix B)")                   \
 X("ulsph.gradient", INDEX, AT(ulsph.gradient), 0, 0, 0, "corrected plain", "corrected", "one of corrected, plain",       \
   "gradients with the corrective matrix L, or of the kernel alone")                                                    \
 X("ulsph.cells", INDEX, AT(ulsph.cells), 0, 0, 0, "whole cut", "whole", "one of whole, cut",                             \

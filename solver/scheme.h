@@ -56,6 +56,7 @@ struct solver_scheme_claims {
                              evolved measures in t */
     const char *turning;  /* a body that turns as a whole has no stress but of the integrator's order in the step */
     const char *momentum; /* a free body keeps its linear momentum to round-off */
+    const char *angular;  /* and its angular momentum, of materials without linear kinematics; x' = v for it */
 };
 
 struct solver_scheme {

@@ -323,7 +323,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .deformation = true,
     .stencil = true,
     .advice = "a smaller cfl, a finer n, or evolved = \"pFHJ\"",
-    .claims = {.affine = "", .turning = "", .momentum = ""},
+    .claims = {.affine = "", .turning = "", .momentum = "", .angular = "angular_momentum=projected"},
     .create = create,
     .destroy = destroy,
     .geometry = geometry,

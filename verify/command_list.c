@@ -81,6 +81,7 @@ static bool list_schemes(struct solver_error *error)
         list_claim("affine motions exact to round-off, on a stencil that keeps constant stress", claims->affine);
         list_claim("no stress by turning but of the integrator's order", claims->turning);
         list_claim("linear momentum to round-off", claims->momentum);
+        list_claim("angular momentum to round-off", claims->angular);
     }
     return true;
 }

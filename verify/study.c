@@ -90,8 +90,9 @@ const char *verify_verdict(const struct verify_study *study)
 static bool is_method(const char *key, size_t length)
 {
     static const char *const methods[] = {
-        "scheme", "evolved", "stencil", "support",   "reconstruction", "volume_flux", "integrator", "cfl",
-        "n",      "perturb", "seed",    "precision", "threads",        "snapshots",   "history",    "beside"};
+        "scheme",           "evolved",    "stencil",   "support", "reconstruction", "volume_flux",
+        "angular_momentum", "integrator", "cfl",       "n",       "perturb",        "seed",
+        "precision",        "threads",    "snapshots", "history", "beside"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (strlen(methods[i]) == length && strncmp(methods[i], key, length) == 0) {
             return true;
