@@ -110,6 +110,9 @@ assay_unit_mutant(skew-normal solver_affine "what claims affine motions keeps th
 assay_unit_mutant(cofactor-rate solver_affine "what claims affine motions keeps them, 2D")
 assay_unit_mutant(jacobian-rate solver_rotation "cells and their stress through a turn, 2D")
 assay_unit_mutant(ulsph-spin-short solver_rotation "cells and their stress through a turn, 2D")
+assay_unit_mutant(angular-last-stage solver_run_angular "a spinning body over 1000 steps, 2D")
+assay_unit_mutant(angular-inertia-sign solver_run_angular "every integrator, and densities that differ")
+assay_unit_mutant(angular-load-impulse solver_run_angular "loads turn the body")
 assay_unit_mutant(ulsph-pair-volumes solver_run_momentum "linear momentum over 1000 steps, 2D")
 
 # A mutant whose text is no longer in the source is an error: here, in a source that is broken already.

@@ -133,6 +133,10 @@ static void test_other_choices(void)
             compare_threads(settings[i], dim);
         }
     }
+    for (size_t dim = 2; dim <= 3; dim++) {
+        compare_threads("stencil=sbp2 angular_momentum=projected integrator=rk4", dim);
+        compare_threads("stencil=sbp2 angular_momentum=projected integrator=tvd-rk2", dim);
+    }
     compare_threads("stencil=closed perturb=0.15 support=2.1 evolved=pFJ", 2);
     compare_threads("stencil=closed perturb=0.15 support=2.1 evolved=pFHJ", 3);
     compare_threads("stencil=sph perturb=0.15 support=2.1 evolved=pFHJ", 3);
