@@ -43,12 +43,21 @@ static bool read_length(const struct solver_scene *scene, const struct solver_op
     return given->count == 1 && argument->length >= 0;
 }
 
+static bool read_axis(const struct solver_scene *scene, const struct solver_option *given,
+                      struct verify_argument *argument)
+{
+    double k = given->count == 1 ? given->number[0] : 0;
+    *argument = (struct verify_argument){.axis = k >= 1 && k <= scene->dim && k == floor(k) ? (size_t)k - 1 : 0};
+    return k == (double)argument->axis + 1;
+}
+
 typedef bool reader(const struct solver_scene *scene, const struct solver_option *given,
                     struct verify_argument *argument);
 static reader *const readers[] = {[VERIFY_WINDOW] = read_window,
                                   [VERIFY_PROBE] = read_probe,
                                   [VERIFY_BODY] = read_body,
-                                  [VERIFY_LENGTH] = read_length};
+                                  [VERIFY_LENGTH] = read_length,
+                                  [VERIFY_AXIS] = read_axis};
 
 static const struct solver_option *find_option(const struct solver_figure *figure, const char *name)
 {
@@ -92,7 +101,7 @@ static bool read_arguments(const struct solver_scene *scene, const struct solver
 static struct oracle_figure exact_figure(const struct verify_truth *truth, const char *name)
 {
     struct oracle_figure figure[ORACLE_FIGURES];
-    size_t count = truth->kind->figures != NULL ? truth->kind->figures(truth->oracle, figure) : 0;
+    size_t count = !truth->none && truth->kind->figures != NULL ? truth->kind->figures(truth->oracle, figure) : 0;
     for (size_t i = 0; i < count; i++) {
         if (strcmp(figure[i].name, name) == 0) {
             return figure[i];
@@ -114,9 +123,10 @@ static bool check(const struct solver_scene *scene, const struct verify_truth *t
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" is for dim = 1, the scene has dim = %d",
                            OF(scene, figure), measure->name, scene->dim);
     }
-    if (truth->none) {
-        return solver_fail(error, SOLVER_BAD_INPUT, WHERE "figures are compared with an oracle, and the scene has none",
-                           OF(scene, figure));
+    if (truth->none && (measure->needs_fronts || !measure->none_is_exact)) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           WHERE "the measure \"%s\" is compared with an oracle, and the scene has none",
+                           OF(scene, figure), measure->name);
     }
     if (measure->needs_fronts && (truth->kind->fronts == NULL || scene->snapshot_count == 0)) {
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" needs %s", OF(scene, figure),
@@ -152,7 +162,9 @@ bool verify_figures_measure(const struct solver_scene *scene, const struct verif
         struct verify_figure *out = &level->figure[i];
         struct oracle_figure exact = exact_figure(truth, scene->figure[i].name);
         *out = (struct verify_figure){.exact = measure->none_is_exact ? 0 : exact.value,
-                                      .unit = measure->none_is_exact ? "-" : exact.unit};
+                                      .unit = !measure->none_is_exact ? exact.unit
+                                              : measure->unit != NULL ? measure->unit
+                                                                      : "-"};
         if (!read_arguments(scene, &scene->figure[i], measure, argument, error) ||
             !measure->measure(&in, argument, &out->measured, error)) {
             return false;

@@ -19,6 +19,12 @@ static const struct verify_measure measures[] = {
      .help = "of a probe's displacement, by a fit of a damped oscillation",
      .option = {{"probe", VERIFY_PROBE}},
      .measure = verify_period},
+    {.name = "drift",
+     .help = "largest distance of a probe, over time, from the line along the axis `across` on which it lay",
+     .option = {{"probe", VERIFY_PROBE}, {"across", VERIFY_AXIS}},
+     .none_is_exact = true,
+     .unit = "m",
+     .measure = verify_drift},
     {.name = "contact time",
      .help = "from the first moment at which bodies press each other to the last",
      .measure = verify_contact_time},
@@ -49,5 +55,6 @@ const char *verify_option_spelling(enum verify_option kind)
     return kind == VERIFY_WINDOW   ? "{ t [s], X0 [m], X1 [m] }, t being one of the snapshots"
            : kind == VERIFY_BODY   ? "{ k }, the k-th of the bodies"
            : kind == VERIFY_LENGTH ? "{ d }, a length [m]"
+           : kind == VERIFY_AXIS   ? "{ k }, the k-th of the axes"
                                    : "the name of a probe";
 }

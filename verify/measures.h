@@ -20,7 +20,8 @@ enum verify_option {
     VERIFY_WINDOW, /* { t, X0, X1 }: part of a snapshot of a one-dimensional body */
     VERIFY_PROBE,  /* the name of a probe */
     VERIFY_BODY,   /* { k }: the k-th body */
-    VERIFY_LENGTH  /* { d }: a length [m] */
+    VERIFY_LENGTH, /* { d }: a length [m] */
+    VERIFY_AXIS    /* { k }: the k-th axis */
 };
 
 struct verify_argument {
@@ -29,6 +30,7 @@ struct verify_argument {
     size_t probe;
     size_t body;
     double length; /* [m] */
+    size_t axis;   /* 0, 1, 2 */
 };
 
 enum { VERIFY_ARGUMENTS = 4 };
@@ -41,6 +43,7 @@ struct verify_measure {
     } option[VERIFY_ARGUMENTS]; /* ends with VERIFY_NO_OPTION, unless full */
     bool in_1d_only;
     bool none_is_exact; /* the exact value is 0; otherwise the oracle has a figure of the same name */
+    const char *unit;   /* of one whose exact value is 0; NULL: none */
     bool needs_fronts;
     /* The figure; NaN where there is nothing to measure. Arguments in the order of `option`. */
     bool (*measure)(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
@@ -65,6 +68,10 @@ bool verify_body_velocity(const struct verify_measuring *in, const struct verify
                           struct solver_error *error);
 bool verify_period(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                    struct solver_error *error);
+
+/* Largest distance [m] of a probe from the line along an axis on which it lay. */
+bool verify_drift(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                  struct solver_error *error);
 
 /* Period [s] of u(t) = a + exp(-d t) (b cos w t + c sin w t), fitted by least squares to `count` rows; NaN where fewer
  * than one and a half periods are there, or such a motion explains less than half of what is there. */
