@@ -17,16 +17,19 @@ enum {
     MOMENT = FORCE + 3,    /* V y x f */
     MOMENTUM = MOMENT + 3, /* m w, w the velocity at the end of the step but for the last stage's rate */
     SPIN = MOMENTUM + 3,   /* m y x w */
-    SUMS = (SPIN + 10) / 8 * 8
+    SUMS = SPIN + 3
 };
 
-/* How the sums of a stage are taken. */
+/* How the sums of a stage are taken: of the state now or, in a stage that `ends` the step, of that at its end but for
+ * what this stage's rates add to the velocity: start + keep (now - start) + rate v + sum S, as integrator.h has it. */
 struct view {
     const struct solver_projection *projection;
     const struct solver_state *state;
-    const struct solver_stage *stage;
-    bool ends; /* positions and velocities are those of the end of the step, which this stage's rates complete */
-    double dt;
+    bool ends;
+    double keep, rate, sum; /* the last two times the step */
+    const double *x, *v;    /* now */
+    const double *x_start, *v_start;
+    const double *x_sum, *v_sum;
 };
 
 static void cross(const double a[3], const double b[3], double out[3])
@@ -62,6 +65,7 @@ bool solver_projection_create(const struct solver_body *body, const struct solve
     }
     projection->body = body;
     projection->V = V;
+    _Static_assert((int)SUMS == (int)SOLVER_PROJECTION_SUMS, "room for all sums");
     projection->held = faces->constraint_count > 0;
     projection->loaded = faces->load_count > 0 || faces->force != NULL;
     return solver_alloc((void **)&projection->partial, solver_pieces(body->cloud->count) * SUMS, sizeof(double),
@@ -79,56 +83,78 @@ static double density(const struct solver_projection *projection, size_t a)
     return projection->body->constants[a * projection->body->stride].rho;
 }
 
-/* Entry i of an evolved vector field at the end of the step, but for what this stage's rate `known` gives it. */
-static double at_end(const struct view *view, const double *field, size_t i, double known)
+static struct view view_now(const struct solver_projection *projection, const struct solver_state *state)
 {
-    const struct solver_state *state = view->state;
-    const struct solver_stage *stage = view->stage;
-    size_t at = (size_t)(field - state->U) + i;
-    double start = stage->time == 0.0 ? field[i] : state->start[at]; /* not there yet in the first stage */
-    double sum = stage->sum != 0.0 ? stage->sum * state->sum[at] : 0.0;
-    return start + stage->keep * (field[i] - start) + view->dt * (stage->rate * known + sum);
+    const double *x = state->x;
+    const double *v = state->v;
+    return (struct view){
+        .projection = projection, .state = state, .x = x, .v = v, .x_start = x, .v_start = v, .x_sum = x, .v_sum = v};
+}
+
+static struct view view_of_end(const struct solver_projection *projection, const struct solver_state *state,
+                               const struct solver_stage *stage, double dt)
+{
+    struct view view = view_now(projection, state);
+    size_t x = (size_t)(state->x - state->U);
+    size_t v = (size_t)(state->v - state->U);
+    view.ends = true;
+    view.keep = stage->keep;
+    view.rate = stage->rate * dt;
+    if (stage->time > 0.0) { /* else the start is not there yet: it is the state now */
+        view.x_start = state->start + x;
+        view.v_start = state->start + v;
+    }
+    if (state->sum != NULL) {
+        view.sum = stage->sum * dt;
+        view.x_sum = state->sum + x;
+        view.v_sum = state->sum + v;
+    }
+    return view;
 }
 
 /* Arm of particle a from the centre, and w. */
-static void look(const struct view *view, size_t a, double arm[3], double w[3])
+static inline void look(const struct view *view, size_t dim, size_t a, double arm[3], double w[3])
 {
-    const struct solver_state *state = view->state;
-    size_t dim = (size_t)view->projection->body->cloud->dim;
     arm[2] = w[2] = 0.0;
     for (size_t i = 0; i < dim; i++) {
-        size_t at = a * state->lanes + i;
-        w[i] = view->ends ? at_end(view, state->v, at, 0.0) : state->v[at];
-        arm[i] = (view->ends ? at_end(view, state->x, at, state->v[at]) : state->x[at]) - view->projection->centre[i];
+        size_t at = a * view->state->lanes + i;
+        double x = view->x_start[at] + view->keep * (view->x[at] - view->x_start[at]);
+        double v = view->v_start[at] + view->keep * (view->v[at] - view->v_start[at]);
+        arm[i] = x + (view->rate * view->v[at] + view->sum * view->x_sum[at]) - view->projection->centre[i];
+        w[i] = v + view->sum * view->v_sum[at];
     }
 }
 
-static void add_particle(const struct view *view, size_t a, double sum[SUMS])
+static inline __attribute__((always_inline)) void add_particles(const struct view *view, size_t dim,
+                                                                struct solver_piece piece, double *partial)
 {
-    const struct solver_state *state = view->state;
-    double V = view->projection->V[a];
-    double m = V * density(view->projection, a);
-    double y[3];
-    double w[3];
-    double f[3] = {0};
-    double moment[3];
-    double spin[3];
-    look(view, a, y, w);
-    for (size_t i = 0; i < (size_t)view->projection->body->cloud->dim; i++) {
-        f[i] = state->v_rate[a * state->lanes + i];
+    double sum[SUMS] = {0};
+    for (size_t a = piece.begin; a < piece.end; a++) {
+        double V = view->projection->V[a];
+        double m = V * density(view->projection, a);
+        double y[3];
+        double w[3];
+        double f[3] = {0};
+        double moment[3];
+        double spin[3];
+        look(view, dim, a, y, w);
+        for (size_t i = 0; i < dim; i++) {
+            f[i] = view->state->v_rate[a * view->state->lanes + i];
+        }
+        cross(y, f, moment);
+        cross(y, w, spin);
+        sum[VOLUME] += V;
+        for (int i = 0; i < 3; i++) {
+            sum[FIRST + i] += V * y[i];
+            sum[SECOND + i] += V * y[i] * y[i];
+            sum[SECOND + 3 + i] += V * y[(i + 1) % 3] * y[(i + 2) % 3];
+            sum[FORCE + i] += m * f[i];
+            sum[MOMENT + i] += m * moment[i];
+            sum[MOMENTUM + i] += m * w[i];
+            sum[SPIN + i] += m * spin[i];
+        }
     }
-    cross(y, f, moment);
-    cross(y, w, spin);
-    sum[VOLUME] += V;
-    for (int i = 0; i < 3; i++) {
-        sum[FIRST + i] += V * y[i];
-        sum[SECOND + i] += V * y[i] * y[i];
-        sum[SECOND + 3 + i] += V * y[(i + 1) % 3] * y[(i + 2) % 3];
-        sum[FORCE + i] += m * f[i];
-        sum[MOMENT + i] += m * moment[i];
-        sum[MOMENTUM + i] += m * w[i];
-        sum[SPIN + i] += m * spin[i];
-    }
+    memcpy(partial, sum, sizeof sum);
 }
 
 /* Sums in one order, whatever the threads: within pieces, then piece by piece. */
@@ -140,9 +166,10 @@ static void sum_up(const struct view *view, double sum[SUMS])
 #pragma omp parallel for schedule(static)
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
         struct solver_piece at = solver_piece_at(piece, count);
-        memset(partial + piece * SUMS, 0, SUMS * sizeof *partial);
-        for (size_t a = at.begin; a < at.end; a++) {
-            add_particle(view, a, partial + piece * SUMS);
+        if (view->projection->body->cloud->dim == 2) {
+            add_particles(view, 2, at, partial + piece * SUMS);
+        } else {
+            add_particles(view, 3, at, partial + piece * SUMS);
         }
     }
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
@@ -152,50 +179,31 @@ static void sum_up(const struct view *view, double sum[SUMS])
     }
 }
 
-/* Angular momentum about the origin of the present state, the step's first; the centre moves to where the body is. */
-static void begin(struct solver_projection *projection, const struct view *view, double sum[SUMS])
-{
-    double shift[3];
-    double carried[3];
-    sum_up(view, sum);
-    for (int i = 0; i < 3; i++) {
-        shift[i] = sum[FIRST + i] / sum[VOLUME];
-    }
-    cross(projection->centre, sum + MOMENTUM, carried);
-    for (int i = 0; i < 3; i++) {
-        projection->target[i] = sum[SPIN + i] + carried[i];
-        projection->centre[i] += shift[i];
-    }
-}
-
 void solver_projection_note(struct solver_projection *projection, const struct solver_state *state,
                             const struct solver_stage *stage)
 {
-    struct view view = {.projection = projection, .state = state, .stage = stage};
-    double sum[SUMS];
-    if (stage->time == 0.0) {
-        begin(projection, &view, sum);
+    struct view view = view_now(projection, state);
+    double *sum = projection->noted;
+    double carried[3];
+    if (stage->time > 0.0 && !projection->loaded) {
+        return;
     }
-    if (projection->loaded) {
-        sum_up(&view, sum);
-        memcpy(projection->force, sum + FORCE, sizeof projection->force);
-        memcpy(projection->moment, sum + MOMENT, sizeof projection->moment);
+    sum_up(&view, sum);
+    if (stage->time == 0.0) {
+        cross(projection->centre, sum + MOMENTUM, carried);
+        for (int i = 0; i < 3; i++) {
+            projection->target[i] = sum[SPIN + i] + carried[i];
+        }
     }
 }
 
 /* What the loads have just added: their resultant and their moment about the centre. */
-static void measure_loads(const struct solver_projection *projection, const struct view *view, double force[3],
+static void measure_loads(const struct solver_projection *projection, const double sum[SUMS], double force[3],
                           double moment[3])
 {
-    double sum[SUMS];
-    memset(force, 0, 3 * sizeof *force);
-    memset(moment, 0, 3 * sizeof *moment);
-    if (projection->loaded) {
-        sum_up(view, sum);
-        for (int i = 0; i < 3; i++) {
-            force[i] = sum[FORCE + i] - projection->force[i];
-            moment[i] = sum[MOMENT + i] - projection->moment[i];
-        }
+    for (int i = 0; i < 3; i++) {
+        force[i] = projection->loaded ? sum[FORCE + i] - projection->noted[FORCE + i] : 0.0;
+        moment[i] = projection->loaded ? sum[MOMENT + i] - projection->noted[MOMENT + i] : 0.0;
     }
 }
 
@@ -203,7 +211,7 @@ static void measure_loads(const struct solver_projection *projection, const stru
 static void remaining(const struct solver_projection *projection, const struct view *view, const double sum[SUMS],
                       const double force[3], double moment[3])
 {
-    double impulse = view->dt * view->stage->rate;
+    double impulse = view->rate;
     double momentum[3];
     double carried[3];
     for (int i = 0; i < 3; i++) {
@@ -252,35 +260,65 @@ static bool multipliers(size_t dim, const double sum[SUMS], const double force[3
     return true;
 }
 
+static inline __attribute__((always_inline)) void correct_particles(const struct view *view, size_t dim,
+                                                                    struct solver_piece piece, const double middle[3],
+                                                                    const double linear[3], const double angular[3])
+{
+    double *v_rate = view->state->v_rate;
+    for (size_t a = piece.begin; a < piece.end; a++) {
+        double y[3];
+        double w[3];
+        double turn[3];
+        double per_rho = 1.0 / density(view->projection, a);
+        look(view, dim, a, y, w);
+        for (int i = 0; i < 3; i++) {
+            y[i] -= middle[i];
+        }
+        cross(angular, y, turn);
+        for (size_t i = 0; i < dim; i++) {
+            v_rate[a * view->state->lanes + i] += per_rho * (linear[i] + turn[i]);
+        }
+    }
+}
+
 static void correct(const struct view *view, const double middle[3], const double linear[3], const double angular[3])
 {
-    const struct solver_state *state = view->state;
-    size_t count = state->count;
-    size_t dim = (size_t)view->projection->body->cloud->dim;
+    size_t count = view->state->count;
 #pragma omp parallel for schedule(static)
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
         struct solver_piece at = solver_piece_at(piece, count);
-        for (size_t a = at.begin; a < at.end; a++) {
-            double y[3];
-            double w[3];
-            double turn[3];
-            double per_rho = 1.0 / density(view->projection, a);
-            look(view, a, y, w);
-            for (int i = 0; i < 3; i++) {
-                y[i] -= middle[i];
-            }
-            cross(angular, y, turn);
-            for (size_t i = 0; i < dim; i++) {
-                state->v_rate[a * state->lanes + i] += per_rho * (linear[i] + turn[i]);
-            }
+        if (view->projection->body->cloud->dim == 2) {
+            correct_particles(view, 2, at, middle, linear, angular);
+        } else {
+            correct_particles(view, 3, at, middle, linear, angular);
         }
     }
+}
+
+/* The sums that the stage is corrected by, and those of the loads. */
+static struct view look_at_stage(struct solver_projection *projection, const struct solver_state *state,
+                                 const struct solver_stage *stage, bool ends, double dt, double sum[SUMS],
+                                 double force[3], double moment[3])
+{
+    struct view view = view_now(projection, state);
+    if (projection->loaded) {
+        sum_up(&view, sum);
+    } else {
+        memcpy(sum, projection->noted, SUMS * sizeof *sum); /* of this stage if it is the first */
+    }
+    measure_loads(projection, sum, force, moment);
+    if (ends) {
+        view = view_of_end(projection, state, stage, dt);
+    }
+    if (ends || (!projection->loaded && stage->time > 0.0)) {
+        sum_up(&view, sum);
+    }
+    return view;
 }
 
 bool solver_projection_act(struct solver_projection *projection, const struct solver_state *state,
                            const struct solver_stage *stage, bool last, double dt, struct solver_error *error)
 {
-    struct view view = {.projection = projection, .state = state, .stage = stage, .dt = dt};
     double sum[SUMS];
     double force[3];
     double moment[3];
@@ -289,25 +327,27 @@ bool solver_projection_act(struct solver_projection *projection, const struct so
     double linear[3];
     double angular[3];
     bool finite = true;
-    measure_loads(projection, &view, force, moment);
-    cross(projection->centre, force, carried);
-    for (int i = 0; i < 3; i++) {
-        projection->target[i] += stage->weight * dt * (moment[i] + carried[i]);
-    }
-    view.ends = last && !projection->held;
-    sum_up(&view, sum);
+    bool ends = last && !projection->held;
+    struct view view = look_at_stage(projection, state, stage, ends, dt, sum, force, moment);
     for (int i = 0; i < SUMS; i++) {
         finite = finite && isfinite(sum[i]);
     }
     if (!finite) {
         return true; /* a particle is broken: the check of the step says which */
     }
-    if (view.ends) {
+    cross(projection->centre, force, carried);
+    for (int i = 0; i < 3; i++) {
+        projection->target[i] += stage->weight * dt * (moment[i] + carried[i]);
+    }
+    if (ends) {
         remaining(projection, &view, sum, force, moment);
     }
     if (!multipliers((size_t)projection->body->cloud->dim, sum, force, moment, middle, linear, angular)) {
         return solver_fail(error, SOLVER_BROKE_DOWN, "angular_momentum: all particles lie on one line");
     }
     correct(&view, middle, linear, angular);
+    for (int i = 0; last && i < 3; i++) {
+        projection->centre[i] += middle[i];
+    }
     return true;
 }

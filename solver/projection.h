@@ -29,15 +29,17 @@
 #include "solver/scheme.h"
 #include "solver/state.h"
 
+enum { SOLVER_PROJECTION_SUMS = 22 };
+
 struct solver_projection {
     bool on;                        /* the scene asks for it; nothing below is set, and nothing done, unless it does */
     bool held, loaded;              /* faces hold or move particles; tractions or body forces act */
     const struct solver_body *body; /* the run's, as everything it points to */
     const double *V;                /* [count] */
     double *partial;                /* sums of each piece of work (pieces.h), added in order */
-    double centre[3];               /* [m] at the start of the step: sums are taken about it */
+    double centre[3];               /* [m] near that of the body: sums are taken about it */
     double target[3];               /* [kg m^2/s] about the origin, what the step must end with */
-    double force[3], moment[3];     /* [N], [N m] about the centre, before the loads of the stage */
+    double noted[SOLVER_PROJECTION_SUMS]; /* of the state that the stage found, before loads */
 };
 
 /* Refuses (SOLVER_BAD_INPUT) where it means nothing: in 1D, for a scheme that does not claim it, for linear
