@@ -73,6 +73,11 @@ bool verify_period(const struct verify_measuring *in, const struct verify_argume
 bool verify_drift(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                   struct solver_error *error);
 
+/* Largest rise of kinetic and strain energy, less the work of loads, above what it was before, over the most there was.
+ */
+bool verify_energy_rise(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                        struct solver_error *error);
+
 /* Period [s] of u(t) = a + exp(-d t) (b cos w t + c sin w t), fitted by least squares to `count` rows; NaN where fewer
  * than one and a half periods are there, or such a motion explains less than half of what is there. */
 double verify_period_fit(size_t count, const double *time, const double *displacement);

@@ -111,6 +111,23 @@ static void add_claims(struct list *list)
     }
 }
 
+/* Forces within the body corrected so that they keep angular momentum (solver/projection.h): no order is lost. */
+static void add_projected(struct list *list)
+{
+    for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
+        for (int b = 0; s->closed && b < BOUNDARIES; b++) {
+            struct upwind of = {s, "pFHJ", "neo-hookean", 2, b};
+            struct verify_mms_case *which = add_upwind(list, "angular momentum kept", "manufactured", of);
+            set(which, "angular_momentum=projected");
+            if (s->boundary < 2) {
+                claim(which, second_order_coarse);
+            }
+            which->level[0] = 16;
+            which->level[1] = 32;
+        }
+    }
+}
+
 /* Everything with everything, in the plane. */
 static void add_plane(struct list *list)
 {
@@ -277,6 +294,7 @@ bool verify_mms_cases(struct verify_mms_case **cases, size_t *count, struct solv
 {
     struct list list = {.cases = NULL};
     add_claims(&list);
+    add_projected(&list);
     add_plane(&list);
     add_line(&list);
     add_space(&list);

@@ -86,7 +86,7 @@ static void open_scene(const char *name)
     verify_truth_free(&truth);
     solver_scene_free(scene);
     (void)snprintf(path, sizeof path, TEST_SOURCE_DIR "/verify/scenes/%s.lua", name);
-    CU_ASSERT_FATAL(solver_scene_load(path, NULL, 0, &scene, &error) && verify_truth_create(scene, &truth, &error));
+    CU_ASSERT_FATAL(solver_scene_load(path, NULL, 0, &scene, &error) && verify_truth_open(scene, &truth, &error));
 }
 
 static struct verify_level level;
@@ -218,6 +218,69 @@ static void refusals(void)
     refused("figures.noise: the measure \"stress ahead\" needs an oracle that has fronts");
 }
 
+/* A probe that is carried along Y and has gone 5e-3 m aside on the way, by 3 and 4 along X and Z. */
+static void drift_of_a_probe(void)
+{
+    double u[] = {0, 0, 0, 9, 9, 9, 0, 7, 0, 9, 9, 9, 3e-3, 8, -4e-3, 9, 9, 9, 1e-3, 9, 0, 9, 9, 9};
+    const struct solver_history history = {.count = 4, .probe_count = 2, .probe_u = u}, none = {.count = 0};
+    const struct verify_measuring in = {.history = &history}, nothing = {.history = &none};
+    struct verify_argument argument[2] = {{.probe = 0}, {.axis = 1}};
+    double value;
+    CU_ASSERT(verify_drift(&in, argument, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 5e-3, 1e-18);
+    argument[1].axis = 0;
+    CU_ASSERT(verify_drift(&in, argument, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 9, 1e-15);
+    argument[0].probe = 1;
+    CU_ASSERT(verify_drift(&in, argument, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 9 * sqrt(2), 1e-14);
+    u[9] = u[10] = u[11] = NAN;
+    CU_ASSERT(verify_drift(&in, argument, &value, &error) && isnan(value));
+    CU_ASSERT(verify_drift(&nothing, argument, &value, &error) && isnan(value));
+}
+
+/* Energy falls from 10 to 4 J and rises by 2 J on the way, of which a load has done half; the most there was is 10 J.
+ */
+static void rise_of_the_energy(void)
+{
+    struct solver_totals totals[] = {{.kinetic = 6, .strain = 4},
+                                     {.kinetic = 3, .strain = 2},
+                                     {.kinetic = 2, .strain = 5, .external = 1},
+                                     {.kinetic = 1, .strain = 4, .external = 1}};
+    const struct solver_history history = {.count = 4, .totals = totals}, none = {.count = 0};
+    const struct verify_measuring in = {.history = &history}, nothing = {.history = &none};
+    double value;
+    CU_ASSERT(verify_energy_rise(&in, NULL, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 0.1, 1e-16);
+    totals[2].external = totals[3].external = 3;
+    CU_ASSERT(verify_energy_rise(&in, NULL, &value, &error) && value == 0);
+    totals[1].strain = NAN;
+    CU_ASSERT(verify_energy_rise(&in, NULL, &value, &error) && isnan(value));
+    CU_ASSERT(verify_energy_rise(&nothing, NULL, &value, &error) && isnan(value));
+}
+
+/* What symmetry alone says needs no oracle; all else does. */
+static void without_an_oracle(void)
+{
+    open_scene("twisting-column");
+    scene->figure_count = 1; /* the drift */
+    CU_ASSERT(verify_figures_check(scene, &truth, &error));
+    struct solver_option *axis = &scene->figure[0].option[strcmp(scene->figure[0].option[0].name, "probe") == 0];
+    for (int k = -1; k < 5; k++) {
+        axis->number[0] = k;
+        if (k >= 1 && k <= 3) {
+            CU_ASSERT(verify_figures_check(scene, &truth, &error));
+        } else {
+            refused("figures.drift: across: not as it must be; expected { k }, the k-th of the axes");
+        }
+    }
+    strcpy(scene->figure[0].measure, "period");
+    refused("figures.drift: the measure \"period\" is compared with an oracle, and the scene has none");
+    strcpy(scene->figure[0].measure, "stress ahead");
+    scene->dim = 1;
+    refused("figures.drift: the measure \"stress ahead\" is compared with an oracle, and the scene has none");
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -228,6 +291,9 @@ int main(void)
         {"of the exact wave", of_the_exact_wave},
         {"behind is not ahead", behind_is_not_ahead},
         {"refusals", refusals},
+        {"drift of a probe", drift_of_a_probe},
+        {"rise of the energy", rise_of_the_energy},
+        {"without an oracle", without_an_oracle},
     };
     int code = unit_main("figures", tests, sizeof tests / sizeof *tests);
     verify_truth_free(&truth);

@@ -23,21 +23,26 @@ t_end = 0.1 -- s
 
 scheme, evolved, stencil = "upwind", "pFHJ", "sbp2"
 angular_momentum = "projected"
-integrator, cfl = "tvd-rk2", 0.3 -- as printed
+-- As printed ("tvd-rk2", 0.3) the energy rises by 1.4e-6 of itself in the first steps, at n = 6: so do undamped waves.
+integrator, cfl = "rk4", 0.45
+history = 10000 -- rows: every step
 
 probes = { { name = "axis", X = {0.5, L, 0.5} }, { name = "corner", X = {1, L, 1} } }
-figures = { drift = { measure = "drift", probe = "axis", across = {2} } }
+figures = {
+    drift = { measure = "drift", probe = "axis", across = {2} },
+    ["energy rise"] = { measure = "energy rise" },
+}
 beside = { n = 6 } -- the same twist
 
 -- There is no exact solution. The pressure of {p,F} alternates from particle to particle: its checkerboard is 0.27 at
 -- n = 8, 0.37 with nu = 0.499, and that of the others 0.15 and 0.16; at n = 6, 0.46, 0.69, 0.25 and 0.27.
 gates = {
-    { ["figure drift"] = 1e-10, ["indicator energy gain"] = 1e-12, ["indicator clumping"] = 0.6 },
+    { ["figure drift"] = 1e-10, ["figure energy rise"] = 1e-12, ["indicator clumping"] = 0.6 },
     { when = { n = 6 },
-      ["figure drift"] = 1e-10, ["indicator energy gain"] = 1e-12, ["indicator clumping"] = 0.6,
+      ["figure drift"] = 1e-10, ["figure energy rise"] = 1e-12, ["indicator clumping"] = 0.6,
       ["indicator checkerboard"] = 0.3 },
     { when = { n = 8 },
-      ["figure drift"] = 1e-10, ["indicator energy gain"] = 1e-12, ["indicator clumping"] = 0.6,
+      ["figure drift"] = 1e-10, ["figure energy rise"] = 1e-12, ["indicator clumping"] = 0.6,
       ["indicator checkerboard"] = 0.2, beside = 0.02 },
 }
 

@@ -1,0 +1,39 @@
+/* Measures of the time history that need no oracle: what must be 0 is. */
+#include "verify/measures.h"
+
+#include <math.h>
+
+bool verify_drift(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                  struct solver_error *error)
+{
+    const struct solver_history *history = in->history;
+    size_t axis = argument[1].axis;
+    (void)error;
+    *value = history->count > 0 ? 0 : NAN;
+    for (size_t i = 0; i < history->count; i++) {
+        const double *u = history->probe_u + 3 * (i * history->probe_count + argument[0].probe);
+        double off = hypot(u[(axis + 1) % 3], u[(axis + 2) % 3]);
+        *value = off <= *value || isnan(*value) ? *value : off; /* a NaN stays */
+    }
+    return true;
+}
+
+bool verify_energy_rise(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                        struct solver_error *error)
+{
+    const struct solver_history *history = in->history;
+    double lowest = INFINITY;
+    double supply = 0;
+    (void)argument;
+    (void)error;
+    *value = history->count > 0 ? 0 : NAN;
+    for (size_t i = 0; i < history->count; i++) {
+        const struct solver_totals *now = &history->totals[i];
+        double energy = now->kinetic + now->strain - now->external;
+        lowest = fmin(lowest, energy);
+        supply = fmax(supply, now->kinetic + now->strain);
+        *value = energy - lowest <= *value || isnan(*value) ? *value : energy - lowest; /* a NaN stays */
+    }
+    *value /= supply;
+    return true;
+}
