@@ -1,6 +1,6 @@
--- A soft plate tumbles freely about no axis of its own, stretched by its spin and set wobbling by it: nothing acts on it, so
--- its momenta must not change. A scheme that evolves F beside x keeps the angular momentum by no law of its own; projected,
--- its forces do.
+-- A soft plate tumbles freely about no axis of its own, stretched by its spin and set wobbling by it: nothing acts on it,
+-- so its momenta must not change. A scheme that evolves F beside x keeps the angular momentum by no law of its own;
+-- projected, its forces do.
 title = "Spinning body"
 source = "after 000_e9ec29e1bde7947d.txt, section 7.1.2: its material and spin, the satellite's wings without its arms"
 
@@ -27,8 +27,8 @@ history = 10000 -- rows: every step
 
 figures = { ["energy rise"] = { measure = "energy rise" } }
 
--- With --set angular_momentum=free the angular momentum drifts by 1.3e-3 at n = 2 and 2.0e-4 at n = 4; as printed (--set
--- integrator=tvd-rk2 --set cfl=0.3) the energy rises by 1.6e-6 and 1e-7 of itself.
+-- With --set angular_momentum=free the angular momentum drifts by 1.3e-3 at n = 2 and 2.0e-4 at n = 4; as printed
+-- (--set integrator=tvd-rk2 --set cfl=0.3) the energy rises by 1.6e-6 and 1e-7 of itself.
 gates = {
     { ["indicator linear momentum"] = 1e-12, ["indicator angular momentum"] = 1e-12, ["figure energy rise"] = 1e-12,
       ["indicator checkerboard"] = 0.03, ["indicator clumping"] = 0.9 },

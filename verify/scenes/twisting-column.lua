@@ -23,7 +23,7 @@ t_end = 0.1 -- s
 
 scheme, evolved, stencil = "upwind", "pFHJ", "sbp2"
 angular_momentum = "projected"
--- As printed ("tvd-rk2", 0.3) the energy rises by 1.4e-6 of itself in the first steps, at n = 6: so do undamped waves.
+-- As printed ("tvd-rk2", 0.3) the energy rises by 1.4e-6 of itself on the way, at n = 6.
 integrator, cfl = "rk4", 0.45
 history = 10000 -- rows: every step
 
