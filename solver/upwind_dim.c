@@ -166,7 +166,7 @@ static inline double volume_flux(const struct solver_upwind *work, size_t a, siz
 
 /* What the scene asks for, as constants where the sums are called, so that each combination is a loop of its own. */
 struct terms {
-    bool frozen, reconstruct, transposed, volume, composite;
+    bool frozen, reconstruct, transposed, volume, composite, bare;
 };
 
 static inline __attribute__((always_inline)) struct sums sum_pairs(const struct solver_upwind *work, size_t a,
@@ -185,6 +185,12 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
         const double *C = work->pair + ab * PAIR;
         const double *D = terms.transposed ? work->transposed + ab * DIM : C;
         const double *P_b = work->P + b * TENSOR;
+        if (terms.bare) {
+            for (int I = 0; I < DIM; I++) {
+                sums.force += load(P_b + I * LANES) * D[I];
+            }
+            continue;
+        }
         vec distance = load(work->X + b * LANES) - X_a;
         vec along = terms.frozen ? distance : load(work->x + b * LANES) - x_a;
         vec jump = load(work->v + b * LANES) - v_a;
@@ -239,7 +245,11 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end)
 {
     bool plain = work->reconstruct && work->transposed == NULL && work->stride == 0;
     bool volume = work->evolves_J;
-    if (plain && work->frozen && !volume) {
+    if (work->bare && work->transposed == NULL) {
+        rates_with(work, begin, end, (struct terms){.bare = true});
+    } else if (work->bare) {
+        rates_with(work, begin, end, (struct terms){.bare = true, .transposed = true});
+    } else if (plain && work->frozen && !volume) {
         rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true});
     } else if (plain && work->frozen) {
         rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true, .volume = true});

@@ -1,0 +1,68 @@
+#include "solver/jst.h"
+
+#include "solver/dim.h"
+
+/* Where materials meet, the volumetric stress has a jump of its own, and so has J: nothing evens that out. */
+static inline bool alike(const struct solver_upwind *work, size_t a, size_t b)
+{
+    return work->stride == 0 || work->constants[a].kappa == work->constants[b].kappa;
+}
+
+static void gather(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        const struct solver_material_constants *of_a = work->constants + a * work->stride;
+        double per_V = 1.0 / work->V[a];
+        vec v_a = load(work->v + a * LANES);
+        vec of_v = {0};
+        double of_J = 0.0;
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            size_t b = work->neighbour[ab];
+            of_v += (load(work->v + b * LANES) - v_a) * jst->laplacian[2 * ab];
+            if (work->evolves_J && alike(work, a, b)) {
+                of_J += (work->J[b] - work->J[a]) * jst->laplacian[2 * ab];
+            }
+        }
+        store(jst->v_laplacian + a * LANES, (per_V * of_a->zp) * of_v);
+        if (work->evolves_J) {
+            jst->J_laplacian[a] = per_V * of_a->cp * of_J;
+        }
+    }
+}
+
+/* The mean of a constant of two particles that exchange. */
+static inline double mean(double of_a, double of_b)
+{
+    return 0.5 * (of_a + of_b);
+}
+
+static void dissipate(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        const struct solver_material_constants *of_a = work->constants + a * work->stride;
+        double per_V = 1.0 / work->V[a];
+        vec v_a = load(work->v + a * LANES);
+        vec L_a = load(jst->v_laplacian + a * LANES);
+        vec force = {0};
+        double volume = 0.0;
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            size_t b = work->neighbour[ab];
+            const struct solver_material_constants *of_b = work->constants + b * work->stride;
+            double l_ab = -jst->biharmonic * jst->laplacian[2 * ab];
+            double l_ba = -jst->biharmonic * jst->laplacian[2 * ab + 1];
+            double k_ab = jst->exchange != NULL ? jst->harmonic * jst->exchange[ab] : 0.0;
+            force += l_ba * load(jst->v_laplacian + b * LANES) - l_ab * L_a;
+            force += (k_ab * mean(of_a->zp, of_b->zp)) * (load(work->v + b * LANES) - v_a);
+            if (work->evolves_J && alike(work, a, b)) {
+                volume += l_ba * jst->J_laplacian[b] - l_ab * jst->J_laplacian[a];
+                volume += k_ab * mean(of_a->cp, of_b->cp) * (work->J[b] - work->J[a]);
+            }
+        }
+        store(work->v_rate + a * LANES, load(work->v_rate + a * LANES) + (per_V / of_a->rho) * force);
+        if (work->evolves_J) {
+            work->J_rate[a] += per_V * volume;
+        }
+    }
+}
+
+const struct solver_jst_loops DIM_NAME(solver_jst) = {.gather = gather, .dissipate = dissipate};
