@@ -43,13 +43,14 @@ static void dissipate(const struct solver_upwind *work, const struct solver_jst 
         double per_V = 1.0 / work->V[a];
         vec v_a = load(work->v + a * LANES);
         vec L_a = load(jst->v_laplacian + a * LANES);
+        double outer = -jst->biharmonic; /* eq. 3.13b */
         vec force = {0};
         double volume = 0.0;
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
             size_t b = work->neighbour[ab];
             const struct solver_material_constants *of_b = work->constants + b * work->stride;
-            double l_ab = -jst->biharmonic * jst->laplacian[2 * ab];
-            double l_ba = -jst->biharmonic * jst->laplacian[2 * ab + 1];
+            double l_ab = outer * jst->laplacian[2 * ab];
+            double l_ba = outer * jst->laplacian[2 * ab + 1];
             double k_ab = jst->exchange != NULL ? jst->harmonic * jst->exchange[ab] : 0.0;
             force += l_ba * load(jst->v_laplacian + b * LANES) - l_ab * L_a;
             force += (k_ab * mean(of_a->zp, of_b->zp)) * (load(work->v + b * LANES) - v_a);

@@ -93,6 +93,7 @@ assay_mutant(free-traction "p,P" ${quick_sbp2})
 assay_mutant(rk2-weight "p,P" ${quick_sbp2})
 assay_mutant(rk4-weight "p,P" ${quick_sbp4})
 
+assay_unit_mutant(jst-biharmonic-sign solver_jst "its work is the Laplacian's square")
 assay_unit_mutant(ulsph-spin-sign solver_ulsph_gradients "linear velocity")
 assay_unit_mutant(ulsph-divergence-correction solver_ulsph_forces "work of forces is that of stress")
 assay_unit_mutant(ulsph-tension-factor solver_ulsph_forces "a constant tension")
