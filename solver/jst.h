@@ -31,8 +31,8 @@ struct solver_jst {
 struct solver_jst_loops {
     /* The Laplacians of the present state. */
     void (*gather)(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end);
-    /* Adds D2 + D4 to v_rate and J_rate. Reads the Laplacians of neighbours: all of them must be there. */
-    void (*dissipate)(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end);
+    /* Those of upwind.h, with D2 + D4. Reads the Laplacians of neighbours: all of them must be there. */
+    void (*rates)(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end);
 };
 
 extern const struct solver_jst_loops solver_jst_1d, solver_jst_2d, solver_jst_3d;

@@ -112,10 +112,10 @@ static void gather(const void *of, size_t begin, size_t end)
     loops_of(system)->gather(&system->base.work, &system->jst, begin, end);
 }
 
-static void dissipate(const void *of, size_t begin, size_t end)
+static void rates(const void *of, size_t begin, size_t end)
 {
     const struct system *system = of;
-    loops_of(system)->dissipate(&system->base.work, &system->jst, begin, end);
+    loops_of(system)->rates(&system->base.work, &system->jst, begin, end);
 }
 
 static bool create(const struct solver_body *body, void **out, struct solver_error *error)
@@ -127,9 +127,8 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
         return false;
     }
     struct system *system = made;
-    system->base.work.bare = true;
     system->base.gather = gather;
-    system->base.dissipate = dissipate;
+    system->base.rates = rates;
     if (!make_weights(system, scene->jst.kappa2 > 0.0, system->base.work.reconstruct, error)) {
         destroy(system);
         return false;

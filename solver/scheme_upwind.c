@@ -98,8 +98,8 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     size_t dim = (size_t)system->body->cloud->dim;
     size_t vector = system->loops->lanes;
     size_t tensor = dim * vector;
-    bool pressure = work->evolves_J && !work->whole_jump && !work->bare;
-    bool slopes = work->reconstruct && !work->bare;
+    bool pressure = work->evolves_J && !work->whole_jump && system->rates == NULL;
+    bool slopes = work->reconstruct && system->rates == NULL;
     const struct solver_field rows[] = {
         {"v", vector, true, &work->v, &work->v_rate, 0},
         {"x", vector, true, &work->x, &work->x_rate, 0},
@@ -190,9 +190,10 @@ bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *
 #pragma omp for schedule(static)
         for (size_t piece = 0; piece < solver_pieces(count); piece++) {
             struct solver_piece at = solver_piece_at(piece, count);
-            system->loops->rates(work, at.begin, at.end);
-            if (system->dissipate != NULL) {
-                system->dissipate(system, at.begin, at.end);
+            if (system->rates != NULL) {
+                system->rates(system, at.begin, at.end);
+            } else {
+                system->loops->rates(work, at.begin, at.end);
             }
         }
     }

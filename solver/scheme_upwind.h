@@ -14,11 +14,11 @@ struct solver_upwind_system {
     struct solver_stencil *stencil;
     struct solver_stencil_residuals residuals;
     struct solver_upwind work;
-    /* Dissipation that is not Riemann's, for particles [begin, end), in a thread; NULL: none. The first follows the
-     * gradients and may read the state of neighbours, the second follows the rates, adds to them, and may read what the
-     * first has left at neighbours. */
+    /* Of a scheme whose dissipation is not Riemann's, for particles [begin, end), in a thread; else NULL. The first
+     * follows the gradients and may read the state of neighbours, the second stands for the rates of upwind.h and may
+     * read what the first has left at neighbours. */
     void (*gather)(const void *system, size_t begin, size_t end);
-    void (*dissipate)(const void *system, size_t begin, size_t end);
+    void (*rates)(const void *system, size_t begin, size_t end);
 };
 
 /* The evolved sets. */

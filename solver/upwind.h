@@ -23,7 +23,6 @@ struct solver_upwind {
     bool evolves_H;                                    /* {p,F,H,J} */
     bool frozen;      /* linear kinematics: H = I in the equation of J, normals n = N */
     bool whole_jump;  /* dissipation of J by the jump of the whole stress, as printed in eq. 27 */
-    bool bare;        /* without Riemann dissipation: another scheme has its own */
     bool reconstruct; /* linear reconstruction (eq. 34); without it the dissipation is of first order */
 
     /* State; NULL where the scene does not ask for it. The linear momentum p = rho v is evolved as the velocity, which
