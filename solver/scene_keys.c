@@ -65,7 +65,8 @@ X("stencil", WORD, AT(stencil), 0, 0, 0, "sph closed sbp2 sbp4", "sbp4", "one of
   "how discrete gradients are built")                                                                                  \
 X("support", NUMBER, AT(support), 1, 4, 0, "", "2", "number in [1, 4]", "support radius / spacing")                    \
 X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares none", "stencil",                        \
-  "one of stencil, least-squares, none", "slopes of the linear reconstruction at the Riemann states")                  \
+  "one of stencil, least-squares, none",                                                                                \
+  "slopes of the linear reconstruction at the Riemann states, and of what jst corrects its Laplacian by")              \
 X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \
   "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
 X("jst.kappa2", NUMBER, AT(jst.kappa2), 0, 10, 0, "", "0", "number in [0, 10]", "harmonic dissipation; 0: none")          \

@@ -25,18 +25,25 @@ struct solver_upwind_system {
 extern const struct solver_scheme_choice solver_upwind_choices[];
 
 /* `size`: of the struct that starts with the system. */
-bool solver_upwind_create(const struct solver_body *body, size_t size, void **system, struct solver_error *error);
-void solver_upwind_destroy(void *system);
+bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error);
+void solver_upwind_destroy(void *of);
 /* The others, as in the table of schemes. */
-struct solver_geometry solver_upwind_geometry(const void *system);
-size_t solver_upwind_fields(void *system, struct solver_field table[SOLVER_STATE_FIELDS]);
-bool solver_upwind_start(void *system, struct solver_error *error);
-bool solver_upwind_evaluate(void *system, double t, double dt, struct solver_error *error);
-void solver_upwind_refresh(void *system, size_t begin, size_t end);
-double solver_upwind_largest_step(const void *system);
-size_t solver_upwind_first_broken(const void *system, size_t begin, size_t end);
-const char *solver_upwind_complaint(const void *system, size_t particle);
-void solver_upwind_look(const void *system, size_t particle, struct solver_point *point);
-double solver_upwind_energy(const void *system, size_t particle);
+struct solver_geometry solver_upwind_geometry(const void *of);
+size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS]);
+bool solver_upwind_start(void *of, struct solver_error *error);
+bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *error);
+void solver_upwind_refresh(void *of, size_t begin, size_t end);
+double solver_upwind_largest_step(const void *of);
+size_t solver_upwind_first_broken(const void *of, size_t begin, size_t end);
+const char *solver_upwind_complaint(const void *of, size_t a);
+void solver_upwind_look(const void *of, size_t a, struct solver_point *point);
+double solver_upwind_energy(const void *of, size_t a);
+
+/* What such schemes have in common, for their initializers. */
+#define SOLVER_UPWIND_SHARED                                                                                           \
+    .choice = solver_upwind_choices, .deformation = true, .stencil = true, .start = solver_upwind_start,               \
+    .evaluate = solver_upwind_evaluate, .refresh = solver_upwind_refresh, .largest_step = solver_upwind_largest_step,  \
+    .first_broken = solver_upwind_first_broken, .complaint = solver_upwind_complaint, .look = solver_upwind_look,      \
+    .energy = solver_upwind_energy
 
 #endif

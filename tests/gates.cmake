@@ -48,6 +48,11 @@ study_gate(jst-sbp4 LABELS gate
   BOUNDS "gate p <= 3.3e-4" "gate P <= 1.04e-3" "gate rate p >= 2.1" "gate rate P >= 1.6"
   WORDS --set scheme=jst)
 
+# Three periods of the mode: what is fed in somewhere would have grown.
+study_gate(jst-long LABELS gate stability SCENE ${quick_scene}
+  BOUNDS "gate p <= 1.81e-3" "gate P <= 2.65e-3"
+  WORDS --levels 16 --set scheme=jst --set t_end=0.05)
+
 # As printed in the paper: its pair vectors leave a constant stress with a force on the boundary, which is of first
 # order. Measured 3.44e-2, 8.22e-2, 0.95, 0.86; the bounds are these and 5 %, orders 0.1 less.
 study_gate(sph LABELS gate
