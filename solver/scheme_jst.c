@@ -159,10 +159,18 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
     return rows;
 }
 
+static const struct solver_scheme_choice choices[] = {
+    SOLVER_UPWIND_EVOLVED,
+    {"jst.kappa2", "harmonic dissipation; 0: none"},
+    {"jst.kappa4", "biharmonic dissipation; 0: none"},
+    {NULL, NULL},
+};
+
 const struct solver_scheme solver_scheme_jst = {
     .name = "jst",
     .summary = "total-Lagrangian mixed method with harmonic and biharmonic dissipation (004_0c0448173ed5e9bd.txt)",
     .advice = "a smaller cfl, another jst.kappa4, a finer n, or evolved = \"pFHJ\"",
+    .choice = choices,
     .claims = {.affine = "", .turning = "", .momentum = ""},
     .create = create,
     .destroy = destroy,

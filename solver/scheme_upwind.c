@@ -312,10 +312,8 @@ double solver_upwind_energy(const void *of, size_t a)
     return work->material->energy(work->constants + a * work->stride, point.F, point.H, point.J);
 }
 
-const struct solver_scheme_choice solver_upwind_choices[] = {
-    {"evolved = \"pF\"", "linear momentum p and deformation gradient F"},
-    {"evolved = \"pFJ\"", "p, F and Jacobian J"},
-    {"evolved = \"pFHJ\"", "p, F, cofactor H and J"},
+static const struct solver_scheme_choice choices[] = {
+    SOLVER_UPWIND_EVOLVED,
     {NULL, NULL},
 };
 
@@ -323,6 +321,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .name = "upwind",
     .summary = "total-Lagrangian mixed method with Riemann dissipation (000_e9ec29e1bde7947d.txt)",
     .advice = "a smaller cfl, a finer n, or evolved = \"pFHJ\"",
+    .choice = choices,
     .claims = {.affine = "", .turning = "", .momentum = ""},
     .create = create,
     .destroy = solver_upwind_destroy,

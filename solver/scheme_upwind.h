@@ -21,9 +21,6 @@ struct solver_upwind_system {
     void (*rates)(const void *system, size_t begin, size_t end);
 };
 
-/* The evolved sets. */
-extern const struct solver_scheme_choice solver_upwind_choices[];
-
 /* `size`: of the struct that starts with the system. */
 bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error);
 void solver_upwind_destroy(void *of);
@@ -39,10 +36,18 @@ const char *solver_upwind_complaint(const void *of, size_t a);
 void solver_upwind_look(const void *of, size_t a, struct solver_point *point);
 double solver_upwind_energy(const void *of, size_t a);
 
+/* clang-format off */
+/* Rows of a scheme's choices: the evolved sets. */
+#define SOLVER_UPWIND_EVOLVED                                                                                          \
+    {"evolved = \"pF\"", "linear momentum p and deformation gradient F"},                                              \
+    {"evolved = \"pFJ\"", "p, F and Jacobian J"},                                                                      \
+    {"evolved = \"pFHJ\"", "p, F, cofactor H and J"}
+/* clang-format on */
+
 /* What such schemes have in common, for their initializers. */
 #define SOLVER_UPWIND_SHARED                                                                                           \
-    .choice = solver_upwind_choices, .deformation = true, .stencil = true, .start = solver_upwind_start,               \
-    .evaluate = solver_upwind_evaluate, .refresh = solver_upwind_refresh, .largest_step = solver_upwind_largest_step,  \
+    .deformation = true, .stencil = true, .start = solver_upwind_start, .evaluate = solver_upwind_evaluate,            \
+    .refresh = solver_upwind_refresh, .largest_step = solver_upwind_largest_step,                                      \
     .first_broken = solver_upwind_first_broken, .complaint = solver_upwind_complaint, .look = solver_upwind_look,      \
     .energy = solver_upwind_energy
 
