@@ -10,13 +10,13 @@
  *   V_a D2_a = kappa2 c dx   sum_b k_ab (f_b - f_a),                  k_ab = (s_a + s_b) / 2 A_ab / |X_ab|
  *   V_a D4_a = -kappa4 c dx^3 sum_b (l_ba Lap f_b - l_ab Lap f_a)
  *
- * D4 is eq. 3.13b with the adjoint of the Laplacian for the outer one, which inside a lattice is the same. Pairs exchange
- * momentum, so sum V D4 = 0 (eq. 3.15) without a projection; sum V D4 (x) X = 0, so of the angular momentum a body keeps
- * what its motion has of an affine one, and no more is promised; and the energy falls, by kappa4 c dx^3 sum V |Lap f|^2.
- * The price: at a boundary D4 has its natural conditions there, whatever f does, and is O(dx) in a layer of one or two
- * particles. D2 exchanges momentum in pairs too, and its energy falls pair by pair; it lets nothing through the boundary,
- * so a linear field is not free of it there. How kappa4 is to depend on plastic strain (eq. 4.2) would be a factor of
- * v_laplacian and J_laplacian, which keeps all of this. */
+ * D4 is eq. 3.13b with the adjoint of the Laplacian for the outer one, which inside a lattice is the same. Pairs
+ * exchange momentum, so sum V D4 = 0 (eq. 3.15) without a projection; sum V D4 (x) X = 0, so of the angular momentum a
+ * body keeps what its motion has of an affine one, and no more is promised; and the energy falls, by kappa4 c dx^3 sum
+ * V |Lap f|^2. The price: at a boundary D4 has its natural conditions there, whatever f does, and is O(dx) in a layer
+ * of one or two particles. D2 exchanges momentum in pairs too, and its energy falls pair by pair; it lets nothing
+ * through the boundary, so a linear field is not free of it there. How kappa4 is to depend on plastic strain (eq. 4.2)
+ * would be a factor of v_laplacian and J_laplacian, which keeps all of this. */
 #ifndef SOLVER_JST_H
 #define SOLVER_JST_H
 

@@ -128,6 +128,31 @@ static void look_at_linear(struct sample *sample, const char *settings)
     expect_below(settings, worst, 1e-11);
 }
 
+/* Nor has the biharmonic part a first moment: it turns no body that an affine motion has deformed. */
+static void look_at_moment(struct sample *sample, const char *settings)
+{
+    ulsph_move_randomly(sample, 1.0);
+    ulsph_evaluate(sample);
+    struct solver_output output = output_of(sample);
+    size_t dim = ulsph_dim(sample), lanes = sample->run->state.lanes;
+    double moment[9] = {0}, size = 0.0;
+    for (size_t a = 0; a < output.cloud->count; a++) {
+        for (size_t k = 0; k < dim * dim; k++) {
+            double arm = mass(sample, &output, a) * output.cloud->X[a * dim + k % dim];
+            moment[k] += arm * sample->run->state.v_rate[a * lanes + k / dim];
+            size += fabs(arm * sample->run->state.v_rate[a * lanes + k / dim]);
+        }
+    }
+    CU_ASSERT(size > 0.01);
+    expect_below(settings, largest_entry(dim * dim, moment) / size, 1e-13);
+}
+
+static void test_moment(void)
+{
+    each_body(material, "jst.kappa4=0.1", look_at_moment);
+    each_body(halves, "jst.kappa4=0.1", look_at_moment);
+}
+
 static void test_linear(void)
 {
     each_body(material, "jst.kappa4=0.1", look_at_linear);
@@ -280,6 +305,7 @@ int main(void)
         {"pairs exchange momentum", test_momentum},
         {"no volume crosses between materials", test_volume},
         {"a linear velocity is left alone", test_linear},
+        {"it has no first moment", test_moment},
         {"its work is the Laplacian's square", test_work},
         {"inside a lattice it is what is printed", test_printed},
         {"the fastest decay", test_fastest},
