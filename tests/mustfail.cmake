@@ -23,7 +23,7 @@ endif()
 add_library(assay_main OBJECT ${CMAKE_SOURCE_DIR}/verify/main.c)
 target_link_libraries(assay_main PRIVATE assay_verify)
 
-# assay_mutate(NAME LIBRARY...): the broken source, or the one that includes the broken header, as objects, compiled as in
+# assay_mutate(NAME LIBRARY...): the broken source, or the one that includes the broken header, as objects compiled as in
 # each of the libraries; their names become `objects`.
 function(assay_mutate name)
   set(mutant ${CMAKE_CURRENT_SOURCE_DIR}/mutants/${name}.mutant)
