@@ -81,8 +81,7 @@ static void fly_with(const struct solver_scheme *scheme, const struct solver_ste
                        "dim=%zu scheme=%s stencil=%s n=%d support=2.1 perturb=%g evolved=%s material.model=%s "
                        "integrator=%s reconstruction=%s",
                        dim, scheme->name, builder->name, fewest(builder, dim), perturbed ? 0.15 : 0.0, evolved[e],
-                       materials[turn % 2], integrators[(turn / 2 + e) % 3],
-                       turn % 4 == 3 ? "least-squares" : "stencil");
+                       materials[turn % 2], integrators[turn / 2 % 3], turn % 4 == 3 ? "least-squares" : "stencil");
         (void)snprintf(claimed, sizeof claimed, "%s %s", settings, scheme->claims.angular);
         struct flight flight = fly(spinning, claimed);
         struct flight left = e == first ? fly(spinning, settings) : (struct flight){.drift.angular = NAN};
