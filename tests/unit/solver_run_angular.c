@@ -312,10 +312,9 @@ static double distance(const double *a, const double *b, size_t count)
 /* Velocities in 16, 32 and 64 steps approach each other by the integrator's order, free, loaded and held. */
 static void test_order(void)
 {
-    static const char *const faces[] = {"",
-                                        "faces = { X1 = { kind = 'traction', value = function(X, Y, Z, t)\n"
-                                        "    return 0.2 + t, 0.5 end } }\n",
-                                        "faces = { X0 = 'clamped' }\n"};
+    static const char loaded[] = "faces = { X1 = { kind = 'traction', value = function(X, Y, Z, t)\n"
+                                 "    return 0.2 + t, 0.5 end } }\n";
+    static const char *const faces[] = {"", loaded, "faces = { X0 = 'clamped' }\n"};
     for (const struct solver_integrator *method = solver_integrators(); method->name != NULL; method++) {
         for (size_t i = 0; i < 3; i++) {
             char settings[128], more[1024];
