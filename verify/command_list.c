@@ -5,6 +5,7 @@
 #include "solver/stencil.h"
 #include "verify/commands.h"
 #include "verify/find.h"
+#include "verify/manufactured.h"
 #include "verify/measures.h"
 #include "verify/suggest.h"
 
@@ -47,6 +48,11 @@ static bool list_oracles(struct solver_error *error)
         for (const struct oracle_parameter *parameter = (*kind)->parameter; parameter->name != NULL; parameter++) {
             (void)printf("  %-24s %s [%s]: %s\n", "", parameter->name, parameter->unit, parameter->help);
         }
+    }
+    for (const struct oracle_motion *motion = oracle_motions(); motion->name != NULL; motion++) {
+        (void)printf("  manufactured-%s-MATERIAL-Dd: %s; for any material that assay list materials shows, D = %d to "
+                     "3\n",
+                     motion->name, motion->summary, motion->least_dim);
     }
     return true;
 }

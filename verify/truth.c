@@ -191,7 +191,7 @@ static const struct oracle_kind *find_named(const char *name, struct solver_erro
 {
     const char *names[256];
     size_t count = 0;
-    const struct oracle_kind *kind = oracle_find(name);
+    const struct oracle_kind *kind = verify_kind_find(name);
     for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL && count < sizeof names / sizeof *names; k++) {
         names[count++] = (*k)->name;
     }
