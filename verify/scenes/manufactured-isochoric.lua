@@ -1,5 +1,5 @@
--- A manufactured motion that keeps every volume, of a body that hardly yields in volume: what a scheme adds to or takes from
--- volumes is turned into pressure, 1700 times as stiff as shear.
+-- A manufactured motion that keeps every volume, of a body that hardly yields in volume: what a scheme adds to or takes
+-- from volumes is turned into pressure, 5000 times as stiff as shear.
 title = "Manufactured motion, volumes kept"
 source = "manufactured: oracles/motion.c"
 
@@ -27,7 +27,8 @@ faces = ({
 
 -- Whatever its faces prescribe; any other choice is measured and reported, and held only to not blowing up.
 gates = {
-    { when = { dim = 2, stencil = "sbp4", integrator = "rk4", cfl = 0.4, evolved = "pFHJ", ["material.model"] = "neo-hookean" },
+    { when = { dim = 2, stencil = "sbp4", integrator = "rk4", cfl = 0.4, evolved = "pFHJ",
+               ["material.model"] = "neo-hookean" },
       p = 3.3e-4, P_all = 6.6e-3, ["rate p"] = 2.7, ["rate P_all"] = 2.6 },
     { p = 0.5, P_all = 1 },
 }
