@@ -40,7 +40,7 @@ def extras(path):
 def main():
     os.makedirs(FOLDER, exist_ok=True)
     oracles = re.findall(r"^  (\S+) +([123])D: ", run("list", "oracles").stdout, re.M)
-    motions = re.findall(r"^  (manufactured-\S+)-MATERIAL-Dd: ", run("list", "oracles").stdout, re.M)
+    motions = re.findall(r"^  (manufactured-\S+) +[12]D to 3D: ", run("list", "oracles").stdout, re.M)
     oracles += [(f"{motion}-neo-hookean-{dim}d", dim) for motion in motions for dim in "23"]
     told = 0
     for name, dim in oracles:

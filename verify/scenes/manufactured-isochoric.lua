@@ -25,16 +25,14 @@ faces = ({
     { X0 = "motion", X1 = "motion", Y0 = "motion", Y1 = "motion", Z0 = "motion", Z1 = "motion" },
 })[dim]
 
--- Whatever its faces prescribe; any other choice is measured and reported, and held only to not blowing up.
 gates = {
-    { when = { dim = 2, stencil = "sbp4", integrator = "rk4", cfl = 0.4, evolved = "pFHJ",
-               ["material.model"] = "neo-hookean" },
-      p = 3.3e-4, P_all = 6.6e-3, ["rate p"] = 2.7, ["rate P_all"] = 2.6 },
-    { p = 0.5, P_all = 1 },
+    { p = 1e-2, P_all = 1 },
+    { when = { dim = 2, stencil = "sbp4", integrator = "rk4", evolved = "pFHJ", n = 24 }, -- whatever the faces prescribe
+      p = 3.3e-4, ["rate p"] = 2.7, P_all = 6.6e-3, ["rate P_all"] = 2.6 },
 }
 
 view = {
-    field = "sigma_xy", range = {-0.18, 0.18}, bands = 12, -- Pa; the exact pressure is zero
+    field = "von_mises", range = {0, 0.32}, bands = 8, -- Pa
     direction = dim == 3 and {1, 0.8, 0.6} or {0, 0, 1}, up = dim == 3 and {0, 0, 1} or {0, 1, 0},
     magnify = 1, size = {900, 900},
 }
