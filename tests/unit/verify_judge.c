@@ -236,6 +236,10 @@ static void refuses_places_and_times(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "but --time says"));
     CU_ASSERT_FALSE(verify_judge_level(&truth, sample, NAN, 0.2, &judgement.level[0], &why));
     CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "but --spacing says"));
+    (void)snprintf(sample->h.unit, sizeof sample->h.unit, "mm");
+    sample->h.value = 250;
+    CU_ASSERT_TRUE(verify_judge_level(&truth, sample, NAN, NAN, &judgement.level[0], &why));
+    CU_ASSERT_DOUBLE_EQUAL(judgement.level[0].h, 0.25, 1e-15);
 }
 
 /* Where no body is, or not yet. */

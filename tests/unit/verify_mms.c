@@ -1,6 +1,6 @@
 /* The suite of manufactured solutions judges: claims that hold, claims too high, and claims of what nobody measured. */
 #include "tests/unit/unit.h"
-#include "verify/mms.h"
+#include "verify/mutations.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -77,6 +77,20 @@ static void claims_are_of_what_is_measured(void)
     free(cases);
 }
 
+static void a_mutation_must_be_noticed(void)
+{
+    struct verify_mutation mutation = {.what = "something"};
+    CU_ASSERT(verify_mutation_missed(&mutation));
+    (void)snprintf(mutation.caught, sizeof mutation.caught, "gate \"p\"");
+    CU_ASSERT(!verify_mutation_missed(&mutation));
+    mutation.control = true; /* nothing was wrong, and a gate failed */
+    CU_ASSERT(verify_mutation_missed(&mutation));
+    mutation.caught[0] = '\0';
+    CU_ASSERT(!verify_mutation_missed(&mutation));
+    mutation.failed = true;
+    CU_ASSERT(verify_mutation_missed(&mutation));
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -84,6 +98,7 @@ int main(void)
         {"what is not measured is not held", what_is_not_measured_is_not_held},
         {"what does not run is not held", what_does_not_run_is_not_held},
         {"claims are of what is measured", claims_are_of_what_is_measured},
+        {"a mutation must be noticed", a_mutation_must_be_noticed},
     };
     return unit_main("manufactured solutions", tests, sizeof tests / sizeof *tests);
 }
