@@ -62,7 +62,8 @@ static bool take_time(struct comparison *c, double given)
         return verify_sample_refuse(c->sample, c->error, "is of t = %.12g s, but --time says %.12g s", time, given);
     }
     c->level->time = isnan(time) ? given : time;
-    return true;
+    return c->level->time >= 0 ||
+           verify_sample_refuse(c->sample, c->error, "is of t = %.12g s; every oracle begins at t = 0", c->level->time);
 }
 
 static bool take_spacing(struct comparison *c, double given)

@@ -232,6 +232,9 @@ static void refuses_places_and_times(void)
     CU_ASSERT_TRUE(verify_judge_level(&truth, sample, NAN, NAN, &judgement.level[0], &why));
     CU_ASSERT_EQUAL(judgement.level[0].time, 1e-3);
     CU_ASSERT_TRUE(near(judgement.level[0].error[VERIFY_NORMS * VERIFY_P], 0));
+    sample->time.value = -1;
+    refused(sample, "is of t = -0.001 s; every oracle begins at t = 0");
+    sample->time.value = 1;
     CU_ASSERT_FALSE(verify_judge_level(&truth, sample, 2e-3, NAN, &judgement.level[0], &why));
     CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "but --time says"));
     CU_ASSERT_FALSE(verify_judge_level(&truth, sample, NAN, 0.2, &judgement.level[0], &why));
