@@ -75,7 +75,7 @@ static void displace_stretch(const struct oracle_motion_shape *shape, int dim, c
         turn(angle, &x[0], &x[1]);
     }
     for (int i = 0; i < dim; i++) {
-        u[i] = jet_combine(1.0, x[i], -1.0, X[i]);
+        u[i] = jet_combine(1.0, jet_scale(1.0, x[i], i < axis ? 0.5 * L : 0.0), -1.0, X[i]);
     }
 }
 

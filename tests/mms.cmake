@@ -17,3 +17,9 @@ assay_test(verify-takes-one-scene LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_
 assay_test(manufactured-of-one-material LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 2
   "there is no oracle \"manufactured-stretch-rubber-2d\"" $<TARGET_FILE:assay> oracle manufactured-stretch-rubber-2d
   --grid 0:1:2,0:1:2 --time 0.1)
+# What moved faces put in is not measured: nothing is said of the energy gained, least of all that it came from nothing.
+assay_test(manufactured-run LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 0 "energy gained      not known"
+  $<TARGET_FILE:assay> run manufactured --set n=8 --out mms/run)
+assay_test(manufactured-by-motion LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 2
+  "a scene names the motion alone" $<TARGET_FILE:assay> verify manufactured --set
+  oracle.name=manufactured-stretch-neo-hookean-2d)

@@ -104,6 +104,7 @@ assay_mutant(sbp4-boundary-weight "p,P" ${quick_sbp4})
 assay_mutant(free-traction "p,P" ${quick_sbp2})
 assay_mutant(rk2-weight "p,P" ${quick_sbp2})
 assay_mutant(rk4-weight "p,P" ${quick_sbp4})
+assay_mutant(body-force-late "rate p,rate x,rate P" mms "small waves, 1D")
 
 assay_unit_mutant(jst-biharmonic-sign solver_jst "its work is the Laplacian's square")
 assay_unit_mutant(ulsph-spin-sign solver_ulsph_gradients "linear velocity")

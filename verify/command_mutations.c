@@ -13,7 +13,7 @@ static void print_row(void *context, const struct verify_mutation *mutation)
     const char *caught = mutation->caught[0] != '\0' ? mutation->caught
                          : mutation->control         ? "nothing, as it should"
                                                      : "NOTHING";
-    (void)printf("%-5s %-44.44s %-42.42s %-60.60s", verify_mutation_missed(mutation) ? "FAIL" : "ok", mutation->what,
+    (void)printf("%-5s %-48.48s %-42.42s %-60.60s", verify_mutation_missed(mutation) ? "FAIL" : "ok", mutation->what,
                  mutation->where, caught);
     if (!isnan(mutation->bound)) {
         (void)printf(" %9.2e, bound %.2e [-]", mutation->value, mutation->bound);
@@ -28,7 +28,7 @@ int verify_command_mutations(const struct verify_options *options)
     struct solver_error error = {.code = SOLVER_OK};
     char path[VERIFY_PATH];
     size_t count = 0, missed = 0;
-    (void)printf("%-5s %-44s %-42s %s\n", "", "what is wrong", "with what", "noticed by");
+    (void)printf("%-5s %-48s %-42s %s\n", "", "what is wrong", "with what", "noticed by");
     (void)verify_manufactured_find("", "", 0); /* sets up the table, which is not for several threads at a time */
     if (!verify_scene_find("manufactured", path, &error) ||
         !verify_mutations(path, print_row, NULL, &count, &missed, &error)) {

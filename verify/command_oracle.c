@@ -210,6 +210,9 @@ static bool answer(struct work *work, const struct verify_sample *places, double
 {
     const struct oracle_kind *kind = work->truth.kind;
     size_t of[VERIFY_SAMPLE_FIELDS] = {0};
+    if (!(time >= 0)) {
+        return verify_sample_refuse(places, error, "t = %.12g s; every oracle begins at t = 0", time);
+    }
     struct verify_sample *sample = verify_samples_add(&work->answers, places->place, error);
     if (sample == NULL || !verify_sample_points(sample, places->count, kind->dim, error) ||
         !add_fields(kind, sample, of, error) || (places->weight != NULL && !verify_sample_weights(sample, error))) {

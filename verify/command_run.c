@@ -65,7 +65,7 @@ static bool run_scene(struct solver_scene *scene, const struct verify_options *o
     print_facts(scene, &facts);
     const struct solver_history *history = solver_run_history(run);
     if (history->count > 0) {
-        verify_terminal_totals(stdout, &history->totals[0], &history->totals[history->count - 1]);
+        verify_terminal_totals(stdout, scene, &history->totals[0], &history->totals[history->count - 1]);
     }
     bool kept = judge(scene, run, &facts, error) && keep(scene, run, folder, options->line, error);
     solver_run_free(run);

@@ -22,6 +22,9 @@ const char *verify_indicator_op(size_t indicator);
 /* VERIFY_INDICATORS if there is none of that name. */
 size_t verify_indicator_find(const char *name);
 
+/* Whether the history of a run of this scene holds all work from outside: what a moved face puts in it does not. */
+bool verify_supply_is_known(const struct solver_scene *scene);
+
 /* All indicators of a run that is over; NaN where one has nothing to say: momentum where faces or loads act on the
  * body, energy where a face is moved, pressure where there is none. */
 bool verify_indicators_measure(const struct solver_scene *scene, const struct solver_output *output,

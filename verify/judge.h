@@ -28,6 +28,9 @@ size_t verify_judged_count(const struct oracle_kind *kind);
 struct verify_judged_field verify_judged_field(const struct oracle_kind *kind, size_t field);
 /* Whether a sample's field of this name is that field: its name, or one of the other names it goes by. */
 bool verify_judged_is(const struct oracle_kind *kind, size_t field, const char *name);
+/* The axis, where the field is an extra scalar "NAME_y" and a field of this name the vector whose component it is, as a
+ * table's columns are read; else -1. */
+int verify_judged_component(const struct oracle_kind *kind, size_t field, const char *name);
 /* "sigma_all_max", "Pa". */
 const char *verify_judged_name(const struct oracle_kind *kind, size_t error, char text[VERIFY_JUDGED_NAME]);
 /* "relative L2 error of the velocity, all components" */

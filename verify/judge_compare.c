@@ -62,7 +62,8 @@ static bool take_time(struct comparison *c, double given)
         return verify_sample_refuse(c->sample, c->error, "is of t = %.12g s, but --time says %.12g s", time, given);
     }
     c->level->time = isnan(time) ? given : time;
-    return true;
+    return c->level->time >= 0 ||
+           verify_sample_refuse(c->sample, c->error, "is of t = %.12g s; every oracle begins at t = 0", c->level->time);
 }
 
 static bool take_spacing(struct comparison *c, double given)
@@ -198,8 +199,9 @@ static bool is_complete(const struct comparison *c, size_t field, const struct v
     return true;
 }
 
+/* `first`: the number that counts of an extra scalar that is a component of the field. */
 static void measure(struct comparison *c, size_t field, const struct verify_sample_field *given, size_t row,
-                    double factor)
+                    size_t first, double factor)
 {
     const struct oracle_kind *kind = c->truth->kind;
     bool extra = field >= VERIFY_STATE_FIELDS;
@@ -217,7 +219,7 @@ static void measure(struct comparison *c, size_t field, const struct verify_samp
         for (size_t i = 0; i < numbers; i++) {
             value[i] *= factor;
         }
-        width = verify_field_take(of, value, row, c->dim, taken);
+        width = verify_field_take(of, value + first, row, c->dim, taken);
         memcpy(c->computed + a * width, taken, width * sizeof *taken);
         if (extra) {
             taken[0] = c->extra[a * ORACLE_EXTRAS + field - VERIFY_STATE_FIELDS];
@@ -264,17 +266,19 @@ static bool compare_field(struct comparison *c, size_t field)
         return true;
     }
     bool symmetric = field == VERIFY_SIGMA || field == VERIFY_SIGMA_ALL;
-    size_t row = row_of(c, about.shape, symmetric, given->width);
+    int component = verify_judged_component(c->truth->kind, field, given->name);
+    enum verify_shape shape = component < 0 ? about.shape : VERIFY_VECTOR;
+    size_t row = row_of(c, shape, symmetric, given->width);
     if (row == 0) {
         return verify_sample_refuse(c->sample, c->error, "field %s has %d numbers a point, expected %s", given->name,
-                                    given->width, shapes[about.shape]);
+                                    given->width, shapes[shape]);
     }
     (void)snprintf(what, sizeof what, "field %s", given->name);
     if (!factor_of(c, what, given->has_unit, given->unit, about.unit, &factor)) {
         return false;
     }
-    if (is_complete(c, field, given, row)) {
-        measure(c, field, given, row, factor);
+    if (component < 0 ? is_complete(c, field, given, row) : (given->given >> component & 1U) != 0) {
+        measure(c, field, given, row, component < 0 ? 0 : (size_t)component, factor);
     }
     return true;
 }

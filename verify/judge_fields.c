@@ -22,8 +22,6 @@ static const struct {
     {VERIFY_SIGMA, "cauchy_stress"},
     {VERIFY_SIGMA, "stress"},
     {VERIFY_PRESSURE, "mean_stress"},
-    {VERIFY_H, "cofactor"},
-    {VERIFY_J, "jacobian"},
 };
 
 size_t verify_judged_count(const struct oracle_kind *kind)
@@ -51,10 +49,20 @@ static enum verify_field whole(enum verify_field field)
     return field == VERIFY_P_ALL ? VERIFY_P : field == VERIFY_SIGMA_ALL ? VERIFY_SIGMA : field;
 }
 
+int verify_judged_component(const struct oracle_kind *kind, size_t field, const char *name)
+{
+    const char *whole_name = verify_judged_field(kind, field).name;
+    size_t length = strlen(name);
+    bool begins = field >= VERIFY_STATE_FIELDS && strncmp(whole_name, name, length) == 0 && whole_name[length] == '_';
+    int axis = begins && strlen(whole_name) == length + 2 ? whole_name[length + 1] - 'x' : -1;
+    return axis >= 0 && axis <= 2 ? axis : -1;
+}
+
 bool verify_judged_is(const struct oracle_kind *kind, size_t field, const char *name)
 {
     if (field >= VERIFY_STATE_FIELDS) {
-        return strcmp(verify_judged_field(kind, field).name, name) == 0;
+        return strcmp(verify_judged_field(kind, field).name, name) == 0 ||
+               verify_judged_component(kind, field, name) >= 0;
     }
     enum verify_field of = whole((enum verify_field)field);
     if (strcmp(verify_field_name(of), name) == 0) {

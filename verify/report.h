@@ -16,8 +16,9 @@ extern const char verify_no_oracle[];
 /* ", stencil residual 1.2e-15 [-]", or nothing where there is no stencil. */
 enum { VERIFY_RESIDUAL = 48 };
 const char *verify_residual(char text[VERIFY_RESIDUAL], const struct solver_facts *facts);
-/* Conserved quantities at the start and the end of a run. */
-void verify_terminal_totals(FILE *file, const struct solver_totals *first, const struct solver_totals *last);
+/* Conserved quantities at the start and the end of a run of this scene. */
+void verify_terminal_totals(FILE *file, const struct solver_scene *scene, const struct solver_totals *first,
+                            const struct solver_totals *last);
 
 /* What they and the particles say of the run, indicator by indicator. */
 void verify_terminal_indicators(FILE *file, const double value[VERIFY_INDICATORS]);

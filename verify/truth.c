@@ -53,6 +53,12 @@ static bool find_kind(const struct solver_scene *scene, const struct oracle_kind
                            "%s: oracle: \"%s\" is of a body of one material, and the scene has material.at",
                            scene->path, scene->oracle);
     }
+    if (*kind == NULL && verify_manufactured_find(scene->oracle, NULL, 0) != NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: oracle: \"%s\" is a whole name; a scene names the motion alone, as in "
+                           "manufactured-stretch, and gives material.model and dim itself",
+                           scene->path, scene->oracle);
+    }
     if (*kind == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT,
                            "%s: oracle: there is no oracle \"%s\"; assay list shows those there are", scene->path,
@@ -191,7 +197,7 @@ static const struct oracle_kind *find_named(const char *name, struct solver_erro
 {
     const char *names[256];
     size_t count = 0;
-    const struct oracle_kind *kind = oracle_find(name);
+    const struct oracle_kind *kind = verify_kind_find(name);
     for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL && count < sizeof names / sizeof *names; k++) {
         names[count++] = (*k)->name;
     }

@@ -174,6 +174,20 @@ static void nothing_is_left_out(void)
     }
 }
 
+/* The body turns where it is: the middle of its cross section stays. */
+static void the_middle_stays(void)
+{
+    const struct oracle_motion *stretch = &oracle_motions()[1];
+    struct oracle_motion_shape shape = {.L = 2, .period = 1, .amplitude = 1};
+    struct oracle_kinematics here;
+    CU_ASSERT_STRING_EQUAL_FATAL(stretch->name, "stretch");
+    for (double t = 0; t < 1; t += 0.07) {
+        oracle_motion_at(stretch, &shape, 3, (double[3]){1, 1, 2 * t}, t, &here);
+        CU_ASSERT_DOUBLE_EQUAL(here.u[0], 0, 1e-15);
+        CU_ASSERT_DOUBLE_EQUAL(here.u[1], 0, 1e-15);
+    }
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -181,6 +195,7 @@ int main(void)
         {"motions hold their own derivatives", motions_hold_derivatives},
         {"volumes are as promised", volumes_are_as_promised},
         {"every axis and component is moved", nothing_is_left_out},
+        {"what turns stays where it is", the_middle_stays},
     };
     return unit_main("motion", tests, sizeof tests / sizeof *tests);
 }

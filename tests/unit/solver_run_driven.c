@@ -129,6 +129,37 @@ static void rollers_meet(void)
     finish(&sample);
 }
 
+/* Where moved faces meet and say different things: one that moves all axes leads rollers, the first of two leads the
+ * other, and each is let go when the one that leads is. */
+static void the_first_of_moved_faces_leads(void)
+{
+    struct sample sample = start(
+        "local function moved(kind, vx, vy, t) return { kind = kind, value = function() return vx, vy end,\n"
+        "    free_after = t } end\n"
+        "faces = { X0 = moved('roller', 0.1, 9), Y0 = moved('motion', 0.3, 0.4), X1 = moved('motion', 0.5, 0.6),\n"
+        "    Y1 = moved('motion', 0.7, 0.8, 0.01) }\n",
+        "dim=2 n=4 t_end=0.05 integrator=rk4");
+    run_to_end(&sample);
+    struct solver_output output;
+    CU_ASSERT_FATAL(solver_run_output(sample.run, &output, &sample.error));
+    size_t corners = 0;
+    for (size_t a = 0; a < output.cloud->count; a++) {
+        double X = output.cloud->X[2 * a], Y = output.cloud->X[2 * a + 1];
+        const double *v = output.v + 2 * a;
+        if (X == 0.0 && Y == 0.0) { /* the roller comes first by its number, and still does not lead */
+            CU_ASSERT(v[0] == 0.3 && v[1] == 0.4);
+            corners++;
+        } else if (X == 1.0 && (Y == 0.0 || Y == 1.0)) { /* X1 before Y0 and Y1, and for as long as X1 lasts */
+            CU_ASSERT(v[0] == 0.5 && v[1] == 0.6);
+            corners++;
+        }
+    }
+    CU_ASSERT_EQUAL(corners, 3);
+    solver_run_free(sample.run);
+    sample.run = NULL;
+    finish(&sample);
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -136,6 +167,7 @@ int main(void)
         {"nobody drives", nobody_drives},
         {"rollers hold the normal alone", rollers_hold_the_normal_alone},
         {"rollers meet others", rollers_meet},
+        {"the first of moved faces leads", the_first_of_moved_faces_leads},
     };
     return unit_main("driven runs", tests, sizeof tests / sizeof *tests);
 }

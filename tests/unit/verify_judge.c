@@ -232,10 +232,17 @@ static void refuses_places_and_times(void)
     CU_ASSERT_TRUE(verify_judge_level(&truth, sample, NAN, NAN, &judgement.level[0], &why));
     CU_ASSERT_EQUAL(judgement.level[0].time, 1e-3);
     CU_ASSERT_TRUE(near(judgement.level[0].error[VERIFY_NORMS * VERIFY_P], 0));
+    sample->time.value = -1;
+    refused(sample, "is of t = -0.001 s; every oracle begins at t = 0");
+    sample->time.value = 1;
     CU_ASSERT_FALSE(verify_judge_level(&truth, sample, 2e-3, NAN, &judgement.level[0], &why));
     CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "but --time says"));
     CU_ASSERT_FALSE(verify_judge_level(&truth, sample, NAN, 0.2, &judgement.level[0], &why));
     CU_ASSERT_PTR_NOT_NULL(strstr(why.text, "but --spacing says"));
+    (void)snprintf(sample->h.unit, sizeof sample->h.unit, "mm");
+    sample->h.value = 250;
+    CU_ASSERT_TRUE(verify_judge_level(&truth, sample, NAN, NAN, &judgement.level[0], &why));
+    CU_ASSERT_DOUBLE_EQUAL(judgement.level[0].h, 0.25, 1e-15);
 }
 
 /* Where no body is, or not yet. */

@@ -128,6 +128,35 @@ static void cauchy_stress(void)
     check(error[verify_error_find("sigma_all_abs")], sqrt(4 + 4 + 6.25));
 }
 
+static void sheared_state(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state)
+{
+    constant_state(oracle, X, t, state);
+    memcpy(state->F, (double[9]){2, 0.5, 0, 0.25, 1.5, 0, 0, 0, 1}, sizeof state->F);
+}
+
+/* Cofactor and Jacobian are measured from those of the body at rest, I and 1. */
+static void cofactor_and_jacobian(void)
+{
+    struct oracle_kind kind = {.state = sheared_state, .finite_strain = true};
+    double X[] = {1, 0}, V[] = {2};
+    struct solver_cloud cloud = {.dim = 2, .count = 1, .X = X};
+    /* exact: H = 1.5 -0.25 / -0.5 2, which is 1.25 from I, and J = 2.875; off by 0.5 and by 1 */
+    const double u[] = {1, 1}, p[] = {3, 4}, F[] = {2, 0.5, 0.25, 1.5}, H[] = {1.5, -0.25, -0.5, 2.5}, J[] = {3.875};
+    const struct solver_output output = {.cloud = &cloud, .time = 1, .V = V, .u = u, .p = p, .F = F, .H = H, .J = J};
+    double error[VERIFY_STATE_ERRORS];
+    struct solver_error why;
+    CU_ASSERT_TRUE_FATAL(verify_norms_state(&output, &kind, NULL, error, &why));
+    check(error[verify_error_find("H")], 0.5 / 1.25);
+    check(error[verify_error_find("H_abs")], 0.5);
+    check(error[verify_error_find("J")], 1 / 1.875);
+    check(error[verify_error_find("J_max")], 1 / 1.875);
+    CU_ASSERT(error[verify_error_find("F")] == 0);
+    kind.finite_strain = false; /* J = 1 + tr(F - I) = 2.5 */
+    CU_ASSERT_TRUE_FATAL(verify_norms_state(&output, &kind, NULL, error, &why));
+    check(error[verify_error_find("J")], 1.375 / 1.5);
+    check(error[verify_error_find("H")], 0.5 / 1.25);
+}
+
 /* Two probes at X = 3 and X = 0, three times: exact u = (X, t, 0). */
 static void probes_over_time(void)
 {
@@ -260,6 +289,7 @@ int main(void)
         {"infinity shows", infinity_is_no_small_error},
         {"components counted", components_counted},
         {"Cauchy stress", cauchy_stress},
+        {"cofactor and Jacobian", cofactor_and_jacobian},
         {"probes over time", probes_over_time},
         {"largest over the snapshots", worst_of_snapshots},
         {"errors that a scene can have", errors_that_apply},

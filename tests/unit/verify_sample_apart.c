@@ -3,6 +3,7 @@
 #include "verify/sample_apart.h"
 
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 
 enum { BYTES = 100, POINTS = 5000 }; /* more than a pipe holds at once */
@@ -129,6 +130,24 @@ static void it_does_not_run_for_ever(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(sample_error.text, "did not survive"));
 }
 
+/* Refuses unless time, memory and the memory's image after a crash are limited. */
+static bool feel_limits(const char *path, size_t bytes, struct verify_samples *to, struct solver_error *error)
+{
+    struct rlimit time, memory, core;
+    bool known =
+        getrlimit(RLIMIT_CPU, &time) == 0 && getrlimit(RLIMIT_DATA, &memory) == 0 && getrlimit(RLIMIT_CORE, &core) == 0;
+    bool limited = known && time.rlim_cur == 10 && core.rlim_cur == 0;
+#ifndef __SANITIZE_ADDRESS__
+    limited = limited && memory.rlim_cur < (rlim_t)1 << 32;
+#endif
+    return limited ? read_two(path, bytes, to, error) : solver_fail(error, SOLVER_BAD_INPUT, "no limits");
+}
+
+static void what_it_may_take_is_limited(void)
+{
+    CU_ASSERT_TRUE(ask(feel_limits, 10));
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -136,6 +155,7 @@ int main(void)
         {"errors come back", errors_come_back},
         {"crashes are errors", crashes_are_errors},
         {"it does not run for ever", it_does_not_run_for_ever},
+        {"what it may take is limited", what_it_may_take_is_limited},
     };
     return sample_files_end(unit_main("verify: samples read apart", tests, sizeof tests / sizeof *tests));
 }

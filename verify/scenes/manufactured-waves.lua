@@ -1,5 +1,5 @@
--- Manufactured standing waves of small amplitude, with no symmetry: for schemes of linear elasticity, and for those whose law
--- is one of rates and agrees with it at small strain.
+-- Manufactured standing waves of small amplitude, with no symmetry: for schemes of linear elasticity, and for those whose
+-- law is one of rates and agrees with it at small strain.
 title = "Manufactured waves"
 source = "manufactured: oracles/motion.c"
 
