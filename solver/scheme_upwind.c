@@ -28,6 +28,7 @@ static void choose_terms(struct system *system, const struct solver_material *ma
     work->evolves_J = scene->evolved != SOLVER_PF;
     work->evolves_H = scene->evolved == SOLVER_PFHJ;
     work->frozen = material->linear;
+    work->hardening = solver_scene_flows(scene) ? &scene->hardening : NULL;
     work->whole_jump = strcmp(scene->volume_flux, "stress") == 0;
     work->reconstruct = strcmp(scene->reconstruction, "none") != 0;
     work->constants = system->body->constants;
@@ -103,6 +104,7 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
     size_t vector = system->loops->lanes;
     size_t tensor = dim * vector;
     bool pressure = work->evolves_J && !work->whole_jump;
+    size_t remembered = work->hardening != NULL ? work->material->flow->width : 0;
     const struct solver_field rows[] = {
         {"v", vector, true, &work->v, &work->v_rate, 0},
         {"x", vector, true, &work->x, &work->x_rate, 0},
@@ -117,6 +119,8 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
         {"grad P", work->evolves_J && work->whole_jump && work->reconstruct ? dim * tensor : 0, false,
          &work->P_gradient, NULL, 0},
         {"grad v", work->reconstruct && work->least_squares != NULL ? tensor : 0, false, &work->v_gradient, NULL, 0},
+        {"plastic flow", remembered, false, &work->flown, NULL, 0},
+        {"plastic flow at the start", remembered, false, &work->flown_before, NULL, 0},
     };
     memcpy(table, rows, sizeof rows);
     return sizeof rows / sizeof *rows;
@@ -173,6 +177,34 @@ static bool start(void *of, struct solver_error *error)
     return true;
 }
 
+/* Plastic flow becomes final once per step: every stage's return map sets out from what was remembered at its start,
+ * so that a stage which overshoots, or a step that is taken back, leaves nothing behind. */
+static bool prepare(void *of, double dt, struct solver_error *error)
+{
+    const struct system *system = of;
+    const struct solver_upwind *work = &system->work;
+    size_t count = system->body->cloud->count;
+    (void)dt;
+    (void)error;
+    if (work->flown == NULL) {
+        return true;
+    }
+    size_t width = work->material->flow->width;
+#pragma omp parallel for schedule(static)
+    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+        struct solver_piece at = solver_piece_at(piece, count);
+        memcpy(work->flown_before + at.begin * width, work->flown + at.begin * width,
+               (at.end - at.begin) * width * sizeof(double));
+    }
+    return true;
+}
+
+/* What particle a remembers; NULL: nothing is plastic. */
+static const double *memory_of(const struct solver_upwind *work, size_t a)
+{
+    return work->flown != NULL ? work->flown + a * work->material->flow->width : NULL;
+}
+
 static bool evaluate(void *of, double t, double dt, struct solver_error *error)
 {
     const struct system *system = of;
@@ -213,7 +245,11 @@ static double largest_step(const void *of)
 #pragma omp parallel for schedule(static) reduction(max : fastest)
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
         struct solver_piece at = solver_piece_at(piece, count);
-        fastest = fmax(fastest, work->material->fastest(work->constants, work->stride, at.begin, at.end, work->F));
+        double here =
+            work->flown != NULL
+                ? work->material->flow->fastest(work->constants, work->stride, at.begin, at.end, work->F, work->flown)
+                : work->material->fastest(work->constants, work->stride, at.begin, at.end, work->F);
+        fastest = fmax(fastest, here);
     }
     return system->body->scene->cfl * system->body->cloud->spacing / fastest;
 }
@@ -293,10 +329,14 @@ static void look(const void *of, size_t a, struct solver_point *point)
     const struct solver_upwind *work = &system->work;
     measures_of(system, a, point);
     rows_of(system, work->P, a, point->P);
+    const struct solver_material_constants *constants = work->constants + a * work->stride;
+    const double *memory = memory_of(work, a);
     point->P_normal = 0.0;
     if (system->body->cloud->dim < 3) {
-        point->P_normal = work->material->stress_normal(work->constants + a * work->stride, point->F, point->J);
+        point->P_normal = memory != NULL ? work->material->flow->stress_normal(constants, point->F, point->J, memory)
+                                         : work->material->stress_normal(constants, point->F, point->J);
     }
+    point->plastic_strain = memory != NULL ? memory[0] : 0.0;
     cauchy(system, point);
 }
 
@@ -305,8 +345,18 @@ static double energy(const void *of, size_t a)
     const struct system *system = of;
     const struct solver_upwind *work = &system->work;
     struct solver_point point;
+    const struct solver_material_constants *constants = work->constants + a * work->stride;
+    const double *memory = memory_of(work, a);
     measures_of(system, a, &point);
-    return work->material->energy(work->constants + a * work->stride, point.F, point.H, point.J);
+    return memory != NULL ? work->material->flow->energy(constants, point.F, point.J, memory)
+                          : work->material->energy(constants, point.F, point.H, point.J);
+}
+
+static double dissipated(const void *of, size_t a)
+{
+    const struct system *system = of;
+    const double *memory = memory_of(&system->work, a);
+    return memory != NULL ? solver_hardening_work(system->work.hardening, memory[0]) : 0.0;
 }
 
 static const struct solver_scheme_choice choices[] = {
@@ -329,6 +379,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .geometry = geometry,
     .fields = fields,
     .start = start,
+    .prepare = prepare,
     .evaluate = evaluate,
     .refresh = refresh,
     .largest_step = largest_step,
@@ -336,4 +387,5 @@ const struct solver_scheme solver_scheme_upwind = {
     .complaint = complaint,
     .look = look,
     .energy = energy,
+    .dissipated = dissipated,
 };
