@@ -129,7 +129,8 @@ static void add_plane(struct list *list)
     }
 }
 
-/* In a line H is 1, and a roller a moved face. */
+/* In a line H is 1, and a roller a moved face. Hencky's material, softer in tension, comes to second order in p from
+ * below, when its error is half that of the others: 1.77, 1.90, 2.01, 1.99 from 1/32 to 1/512. */
 static void add_line(struct list *list)
 {
     for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
@@ -137,8 +138,9 @@ static void add_line(struct list *list)
             for (int eb = 0; eb < (EVOLVED_SETS - 1) * (BOUNDARIES - 1); eb++) {
                 struct upwind of = {s, evolved_sets[eb / (BOUNDARIES - 1)], m->name, 1, eb % (BOUNDARIES - 1)};
                 struct verify_mms_case *which = add_upwind(list, "large strain, 1D", "manufactured", of);
-                which->level[0] = 32;
-                which->level[1] = 64;
+                bool late = s->closed && s->boundary < 2 && strcmp(m->name, "hencky") == 0;
+                which->level[0] = late ? 128 : 32;
+                which->level[1] = late ? 256 : 64;
             }
         }
     }
