@@ -47,9 +47,9 @@ static inline bool is_diagonal(double A[DIM][DIM])
     double diagonal = 0.0;
     double beside = 0.0;
     for (int i = 0; i < DIM; i++) {
-        diagonal = fmax(diagonal, fabs(A[i][i]));
+        diagonal += fabs(A[i][i]);
         for (int j = 0; j < i; j++) {
-            beside = fmax(beside, fmax(fabs(A[i][j]), fabs(A[j][i])));
+            beside += fabs(A[i][j]) + fabs(A[j][i]);
         }
     }
     return beside <= 0x1p-60 * diagonal;

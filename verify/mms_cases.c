@@ -111,6 +111,14 @@ static void add_claims(struct list *list)
     }
 }
 
+/* Hencky's material is so soft in tension that second-order stencils come to their order late, with errors that are
+ * smaller than those of others: in a line 1.77, 1.90, 2.01, 1.99 in p from 1/32 to 1/512, in the plane 1.33 and 2.10 in
+ * F from 1/16 to 1/64. */
+static bool comes_late(const struct solver_stencil_builder *stencil, const struct solver_material_model *material)
+{
+    return stencil->closed && stencil->boundary < 2 && strcmp(material->name, "hencky") == 0;
+}
+
 /* Everything with everything, in the plane. */
 static void add_plane(struct list *list)
 {
@@ -122,15 +130,15 @@ static void add_plane(struct list *list)
                 if (s->closed && s->boundary < 2) {
                     claim(which, second_order_coarse);
                 }
-                which->level[0] = 16;
-                which->level[1] = 32;
+                bool late = comes_late(s, m);
+                which->level[0] = late ? 24 : 16;
+                which->level[1] = late ? 48 : 32;
             }
         }
     }
 }
 
-/* In a line H is 1, and a roller a moved face. Hencky's material, softer in tension, comes to second order in p from
- * below, when its error is half that of the others: 1.77, 1.90, 2.01, 1.99 from 1/32 to 1/512. */
+/* In a line H is 1, and a roller a moved face. */
 static void add_line(struct list *list)
 {
     for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
@@ -138,7 +146,7 @@ static void add_line(struct list *list)
             for (int eb = 0; eb < (EVOLVED_SETS - 1) * (BOUNDARIES - 1); eb++) {
                 struct upwind of = {s, evolved_sets[eb / (BOUNDARIES - 1)], m->name, 1, eb % (BOUNDARIES - 1)};
                 struct verify_mms_case *which = add_upwind(list, "large strain, 1D", "manufactured", of);
-                bool late = s->closed && s->boundary < 2 && strcmp(m->name, "hencky") == 0;
+                bool late = comes_late(s, m);
                 which->level[0] = late ? 128 : 32;
                 which->level[1] = late ? 256 : 64;
             }
