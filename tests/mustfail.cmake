@@ -92,6 +92,8 @@ assay_mutant(sbp4-boundary-weight "p,P" ${quick_sbp4})
 assay_mutant(free-traction "p,P" ${quick_sbp2})
 assay_mutant(rk2-weight "p,P" ${quick_sbp2})
 assay_mutant(rk4-weight "p,P" ${quick_sbp4})
+assay_mutant(return-map-hardening "P_all" plastic-cube --levels 3 --set threads=1)
+assay_mutant(plastic-memory "P_all" plastic-cube --levels 3 --set threads=1)
 
 assay_unit_mutant(ulsph-spin-sign solver_ulsph_gradients "linear velocity")
 assay_unit_mutant(ulsph-divergence-correction solver_ulsph_forces "work of forces is that of stress")
@@ -110,6 +112,7 @@ assay_unit_mutant(skew-normal solver_affine "what claims affine motions keeps th
 assay_unit_mutant(cofactor-rate solver_affine "what claims affine motions keeps them, 2D")
 assay_unit_mutant(jacobian-rate solver_rotation "cells and their stress through a turn, 2D")
 assay_unit_mutant(ulsph-spin-short solver_rotation "cells and their stress through a turn, 2D")
+assay_unit_mutant(plastic-forgotten solver_run_plastic "energy balance")
 assay_unit_mutant(ulsph-pair-volumes solver_run_momentum "linear momentum over 1000 steps, 2D")
 
 # A mutant whose text is no longer in the source is an error: here, in a source that is broken already.
