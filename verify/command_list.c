@@ -5,6 +5,7 @@
 #include "solver/stencil.h"
 #include "verify/commands.h"
 #include "verify/find.h"
+#include "verify/manufactured.h"
 #include "verify/measures.h"
 #include "verify/suggest.h"
 
@@ -34,6 +35,31 @@ static bool list_scenes(struct solver_error *error)
     return done;
 }
 
+static void list_parameters(const struct oracle_kind *kind)
+{
+    for (const struct oracle_parameter *parameter = kind->parameter; parameter->name != NULL; parameter++) {
+        (void)printf("  %-24s %s [%s]: %s\n", "", parameter->name, parameter->unit, parameter->help);
+    }
+    for (const struct oracle_extra *extra = kind->extra; extra != NULL && extra->name != NULL; extra++) {
+        (void)printf("  %-24s also knows %s [%s]: %s\n", "", extra->name, extra->unit, extra->help);
+    }
+}
+
+/* One entry per motion, which any material can follow. */
+static void list_manufactured(void)
+{
+    const struct solver_material_model *model = solver_material_models();
+    for (const struct oracle_motion *motion = oracle_motions(); motion->name != NULL; motion++) {
+        char name[2 * SOLVER_NAME];
+        (void)snprintf(name, sizeof name, "manufactured-%s-%s-3d", motion->name, model->name);
+        (void)printf("  manufactured-%-11s %dD to 3D: %s; of the scene's material\n", motion->name, motion->least_dim,
+                     motion->summary);
+        (void)printf("  %-24s manufactured-%s-MATERIAL-%dd: by its whole name, without a scene\n", "", motion->name,
+                     motion->least_dim);
+        list_parameters(verify_kind_find(name));
+    }
+}
+
 static bool list_oracles(struct solver_error *error)
 {
     (void)error;
@@ -44,10 +70,9 @@ static bool list_oracles(struct solver_error *error)
         if ((*kind)->awaits != NULL) {
             (void)printf("  %-24s the solver lacks %s: nothing is verified by it yet\n", "", (*kind)->awaits);
         }
-        for (const struct oracle_parameter *parameter = (*kind)->parameter; parameter->name != NULL; parameter++) {
-            (void)printf("  %-24s %s [%s]: %s\n", "", parameter->name, parameter->unit, parameter->help);
-        }
+        list_parameters(*kind);
     }
+    list_manufactured();
     return true;
 }
 

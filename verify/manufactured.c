@@ -141,7 +141,7 @@ struct entry {
     struct verify_manufactured about;
     struct oracle_kind kind;
     struct oracle_parameter parameter[7];
-    char name[NAME], summary[SUMMARY], amplitude[NAME];
+    char name[NAME], summary[SUMMARY];
 };
 
 static const struct oracle_extra forces[3][4] = {
@@ -162,11 +162,10 @@ static void describe(struct entry *entry)
     int dim = entry->about.dim;
     (void)snprintf(entry->name, NAME, "manufactured-%s-%s-%dd", motion->name, model->name, dim);
     (void)snprintf(entry->summary, SUMMARY, "manufactured: %s; %s", motion->summary, model->summary);
-    (void)snprintf(entry->amplitude, NAME, "amplitude: %s", motion->amplitude);
     const struct oracle_parameter parameter[] = {
         {"L", "m", "edge of the body, half a wave of the motion", 0, INFINITY, true, true, 1},
         {"period", "s", "period of the motion", 0, INFINITY, true, true, 1},
-        {"amplitude", "-", entry->amplitude, 0, motion->most, true, false, motion->typical},
+        {"amplitude", "-", motion->amplitude, 0, motion->most, true, false, motion->typical},
         {"material.E", "Pa", "Young's modulus", 0, INFINITY, true, true, 1},
         {"material.nu", "-", "Poisson's ratio", -1, 0.5, true, true, 0.3},
         {"material.rho", "kg/m^3", "density", 0, INFINITY, true, true, 1},

@@ -294,7 +294,7 @@ static void check_power(struct check *check)
     }
     gsl_integration_glfixed_table_free(rule);
     double bound = 10 * TRUNCATION + 16 * check->noise / STEP;
-    add_line(check, "second evaluation: power of all forces = of inertia and stress",
+    add_line(check, "second evaluation: balance of power",
              fabs(sum.force + sum.traction - sum.inertia - sum.stress) / sum.size, bound);
     add_line(check, "gain of kinetic energy = power of inertia", fabs(gain[0] - sum.inertia) / sum.size, bound);
     add_line(check, "gain of strain energy = power of stress", fabs(gain[1] - sum.stress) / sum.size,

@@ -25,10 +25,14 @@ faces = ({
     { X0 = "motion", X1 = "motion", Y0 = "motion", Y1 = "motion", Z0 = "motion", Z1 = "motion" },
 })[dim]
 
-gates = { { p = 1e-2, P_all = 1 } }
+gates = {
+    { p = 1e-2, P_all = 1 },
+    { when = { dim = 2, stencil = "sbp4", integrator = "rk4", evolved = "pFHJ", n = 24 },
+      p = 1.5e-4, ["rate p"] = 2.8, P_all = 9e-3, ["rate P_all"] = 2.8 },
+}
 
 view = {
-    field = "pressure", range = {-0.2, 0.2}, bands = 12, -- Pa
+    field = "von_mises", range = {0, 0.32}, bands = 8, -- Pa
     direction = dim == 3 and {1, 0.8, 0.6} or {0, 0, 1}, up = dim == 3 and {0, 0, 1} or {0, 1, 0},
     magnify = 1, size = {900, 900},
 }

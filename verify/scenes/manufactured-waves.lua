@@ -25,10 +25,14 @@ faces = ({
     { X0 = "motion", X1 = "motion", Y0 = "motion", Y1 = "motion", Z0 = "motion", Z1 = "motion" },
 })[dim]
 
-gates = { { p = 1e-2, sigma_all = 1e-2 } }
+gates = {
+    { p = 1e-2, sigma_all = 1e-1 },
+    { when = { scheme = "upwind", dim = 2, stencil = "sbp4", integrator = "rk4", n = 24 },
+      p = 2.5e-4, ["rate p"] = 2.8, sigma_all = 1.8e-3, ["rate sigma_all"] = 2.8 },
+}
 
 view = {
-    field = "pressure", range = {-4e-6, 4e-6}, bands = 12, -- Pa
+    field = "sigma_xx", range = {-9e-7, 9e-7}, bands = 9, -- Pa
     direction = dim == 3 and {1, 0.8, 0.6} or {0, 0, 1}, up = dim == 3 and {0, 0, 1} or {0, 1, 0},
-    magnify = 5e4, size = {900, 900},
+    magnify = 1e5, size = {900, 900},
 }
