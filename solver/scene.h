@@ -108,6 +108,11 @@ struct solver_ulsph_terms {
     double delta;                                         /* of the density diffusion (eq. 33); 0: none */
 };
 
+/* The dissipation of 004_0c0448173ed5e9bd.txt, eq. 3.13. */
+struct solver_jst_terms {
+    double kappa2, kappa4; /* of the harmonic and the biharmonic part; 0: none */
+};
+
 struct solver_named {
     char name[SOLVER_NAME];
     double value;
@@ -205,12 +210,13 @@ struct solver_scene {
     double E, nu, rho; /* [Pa], [-], [kg/m^3] */
     struct solver_hardening hardening;
 
-    char scheme[SOLVER_NAME]; /* "upwind", "ulsph" */
+    char scheme[SOLVER_NAME]; /* "upwind", "jst", "ulsph" */
     enum solver_evolved evolved;
     char stencil[SOLVER_NAME];        /* "sph", "closed", "sbp2", "sbp4" */
     double support;                   /* support radius / spacing */
     char reconstruction[SOLVER_NAME]; /* "stencil", "least-squares", "none" */
     char volume_flux[SOLVER_NAME];    /* dissipation of J by the jump of "pressure" or of the whole "stress" */
+    struct solver_jst_terms jst;
     struct solver_ulsph_terms ulsph;
     int contact_law;         /* enum solver_contact_law */
     double contact_distance; /* [m]; 0: the spacing */

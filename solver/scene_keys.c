@@ -72,7 +72,7 @@ X("material.hardening_strain", NUMBER, AT(hardening.strain), 0, DBL_MAX, 0, "", 
   "e0 of the power law")                                                                                               \
 X("material.hardening_exponent", NUMBER, AT(hardening.exponent), 0, 1, 0, "", "0", "number in (0, 1] with power",       \
   "m of the power law")                                                                                                \
-X("scheme", WORD, AT(scheme), 0, 0, 0, "upwind ulsph | jst efg adaptle", "upwind", "one of upwind, ulsph",                    \
+X("scheme", WORD, AT(scheme), 0, 0, 0, "upwind jst ulsph | efg adaptle", "upwind", "one of upwind, jst, ulsph",                    \
   "semi-discrete right-hand side")                                                                                     \
 X("evolved", INDEX, AT(evolved), 0, 0, 0, "pF pFJ pFHJ", "pFHJ", "one of pF, pFJ, pFHJ",                               \
   "geometric measures with an equation of their own")                                                                  \
@@ -80,9 +80,12 @@ X("stencil", WORD, AT(stencil), 0, 0, 0, "sph closed sbp2 sbp4", "sbp4", "one of
   "how discrete gradients are built")                                                                                  \
 X("support", NUMBER, AT(support), 1, 4, 0, "", "2", "number in [1, 4]", "support radius / spacing")                    \
 X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares none", "stencil",                        \
-  "one of stencil, least-squares, none", "slopes of the linear reconstruction at the Riemann states")                  \
+  "one of stencil, least-squares, none",                                                                                \
+  "slopes of the linear reconstruction at the Riemann states, and of what jst corrects its Laplacian by")              \
 X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \
   "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
+X("jst.kappa2", NUMBER, AT(jst.kappa2), 0, 10, 0, "", "0", "number in [0, 10]", "harmonic dissipation; 0: none")          \
+X("jst.kappa4", NUMBER, AT(jst.kappa4), 0, 10, 0, "", "0.015625", "number in [0, 10]", "biharmonic dissipation; 0: none")    \
 X("ulsph.gradient", INDEX, AT(ulsph.gradient), 0, 0, 0, "corrected plain", "corrected", "one of corrected, plain",       \
   "gradients with the corrective matrix L, or of the kernel alone")                                                    \
 X("ulsph.cells", INDEX, AT(ulsph.cells), 0, 0, 0, "whole cut", "whole", "one of whole, cut",                             \

@@ -4,6 +4,7 @@
 
 static const struct solver_scheme *const schemes[] = {
     &solver_scheme_upwind,
+    &solver_scheme_jst,
     &solver_scheme_ulsph,
     NULL,
 };

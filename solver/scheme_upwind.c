@@ -1,24 +1,15 @@
 /* The mixed total-Lagrangian Upwind scheme (000_e9ec29e1bde7947d.txt) as a scheme of the table: its stencil, its terms
  * and its fields. The loops are in upwind_dim.c. */
+#include "solver/scheme_upwind.h"
+
 #include "solver/memory.h"
 #include "solver/pieces.h"
-#include "solver/scheme.h"
-#include "solver/stencil.h"
-#include "solver/upwind.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-struct system {
-    const struct solver_body *body;
-    const struct solver_upwind_loops *loops;
-    struct solver_stencil *stencil;
-    struct solver_stencil_residuals residuals;
-    struct solver_upwind work;
-};
-
-static void choose_terms(struct system *system, const struct solver_material *material)
+static void choose_terms(struct solver_upwind_system *system, const struct solver_material *material)
 {
     const struct solver_scene *scene = system->body->scene;
     struct solver_upwind *work = &system->work;
@@ -35,7 +26,7 @@ static void choose_terms(struct system *system, const struct solver_material *ma
     work->stride = system->body->stride;
 }
 
-static void bind_stencil(struct system *system)
+static void bind_stencil(struct solver_upwind_system *system)
 {
     const struct solver_stencil *stencil = system->stencil;
     system->work.row = stencil->graph.row;
@@ -47,32 +38,32 @@ static void bind_stencil(struct system *system)
     system->work.V = stencil->V;
 }
 
-static void destroy(void *of)
+void solver_upwind_destroy(void *of)
 {
-    struct system *system = of;
+    struct solver_upwind_system *system = of;
     solver_stencil_free(system->stencil);
     free(system);
 }
 
-static bool create(const struct solver_body *body, void **out, struct solver_error *error)
+bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error)
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
     const struct solver_material_model *model = solver_material_find(scene->material_model);
     bool least_squares = strcmp(scene->reconstruction, "least-squares") == 0;
-    struct system *system = NULL;
+    struct solver_upwind_system *system = NULL;
     if (builder == NULL || model == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: no stencil \"%s\" or material \"%s\"", scene->path,
                            scene->stencil, scene->material_model);
     }
-    if (!solver_alloc((void **)&system, 1, sizeof *system, "scheme", error)) {
+    if (!solver_alloc((void **)&system, 1, size, "scheme", error)) {
         return false;
     }
     system->body = body;
     choose_terms(system, model->in[scene->dim - 1]);
     if (!solver_stencil_create(builder, body->cloud, scene->support, &system->stencil, error) ||
         (least_squares && !solver_stencil_add_least_squares(system->stencil, body->cloud, error))) {
-        destroy(system);
+        solver_upwind_destroy(system);
         return false;
     }
     bind_stencil(system);
@@ -81,9 +72,14 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
     return true;
 }
 
-static struct solver_geometry geometry(const void *of)
+static bool create(const struct solver_body *body, void **out, struct solver_error *error)
 {
-    const struct system *system = of;
+    return solver_upwind_create(body, sizeof(struct solver_upwind_system), out, error);
+}
+
+struct solver_geometry solver_upwind_geometry(const void *of)
+{
+    const struct solver_upwind_system *system = of;
     const struct solver_stencil *stencil = system->stencil;
     return (struct solver_geometry){
         .V = stencil->V,
@@ -96,14 +92,15 @@ static struct solver_geometry geometry(const void *of)
     };
 }
 
-static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
+size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
 {
-    struct system *system = of;
+    struct solver_upwind_system *system = of;
     struct solver_upwind *work = &system->work;
     size_t dim = (size_t)system->body->cloud->dim;
     size_t vector = system->loops->lanes;
     size_t tensor = dim * vector;
-    bool pressure = work->evolves_J && !work->whole_jump;
+    bool pressure = work->evolves_J && !work->whole_jump && system->rates == NULL;
+    bool slopes = work->reconstruct && system->rates == NULL;
     size_t remembered = work->hardening != NULL ? work->material->flow->width : 0;
     const struct solver_field rows[] = {
         {"v", vector, true, &work->v, &work->v_rate, 0},
@@ -115,10 +112,9 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
         {"P", tensor, false, &work->P, NULL, 0},
         {"cof F", work->evolves_J && !work->evolves_H && !work->frozen ? tensor : 0, false, &work->cofactor, NULL, 0},
         {"U'(J)", pressure ? 1 : 0, false, &work->pressure, NULL, 0},
-        {"grad U'(J)", pressure && work->reconstruct ? vector : 0, false, &work->pressure_gradient, NULL, 0},
-        {"grad P", work->evolves_J && work->whole_jump && work->reconstruct ? dim * tensor : 0, false,
-         &work->P_gradient, NULL, 0},
-        {"grad v", work->reconstruct && work->least_squares != NULL ? tensor : 0, false, &work->v_gradient, NULL, 0},
+        {"grad U'(J)", pressure && slopes ? vector : 0, false, &work->pressure_gradient, NULL, 0},
+        {"grad P", work->evolves_J && work->whole_jump && slopes ? dim * tensor : 0, false, &work->P_gradient, NULL, 0},
+        {"grad v", slopes && work->least_squares != NULL ? tensor : 0, false, &work->v_gradient, NULL, 0},
         {"plastic flow", remembered, false, &work->flown, NULL, 0},
         {"plastic flow at the start", remembered, false, &work->flown_before, NULL, 0},
     };
@@ -127,7 +123,7 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
 }
 
 /* F = sum_b (x_b - x_a) (x) C_ab / 2V_a, row by row. */
-static void discrete_F(const struct system *system, size_t a, double *F)
+static void discrete_F(const struct solver_upwind_system *system, size_t a, double *F)
 {
     const struct solver_stencil *stencil = system->stencil;
     const double *x = system->work.x;
@@ -146,9 +142,9 @@ static void discrete_F(const struct system *system, size_t a, double *F)
     }
 }
 
-static bool start(void *of, struct solver_error *error)
+bool solver_upwind_start(void *of, struct solver_error *error)
 {
-    struct system *system = of;
+    struct solver_upwind_system *system = of;
     struct solver_upwind *work = &system->work;
     const struct solver_scene *scene = system->body->scene;
     const struct solver_cloud *cloud = system->body->cloud;
@@ -179,9 +175,9 @@ static bool start(void *of, struct solver_error *error)
 
 /* Plastic flow becomes final once per step: every stage's return map sets out from what was remembered at its start,
  * so that a stage which overshoots, or a step that is taken back, leaves nothing behind. */
-static bool prepare(void *of, double dt, struct solver_error *error)
+bool solver_upwind_prepare(void *of, double dt, struct solver_error *error)
 {
-    const struct system *system = of;
+    const struct solver_upwind_system *system = of;
     const struct solver_upwind *work = &system->work;
     size_t count = system->body->cloud->count;
     (void)dt;
@@ -205,9 +201,9 @@ static const double *memory_of(const struct solver_upwind *work, size_t a)
     return work->flown != NULL ? work->flown + a * work->material->flow->width : NULL;
 }
 
-static bool evaluate(void *of, double t, double dt, struct solver_error *error)
+bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *error)
 {
-    const struct system *system = of;
+    const struct solver_upwind_system *system = of;
     const struct solver_upwind *work = &system->work;
     size_t count = system->body->cloud->count;
     (void)t;
@@ -219,26 +215,33 @@ static bool evaluate(void *of, double t, double dt, struct solver_error *error)
         for (size_t piece = 0; piece < solver_pieces(count); piece++) {
             struct solver_piece at = solver_piece_at(piece, count);
             system->loops->gradients(work, at.begin, at.end);
+            if (system->gather != NULL) {
+                system->gather(system, at.begin, at.end);
+            }
         }
 #pragma omp for schedule(static)
         for (size_t piece = 0; piece < solver_pieces(count); piece++) {
             struct solver_piece at = solver_piece_at(piece, count);
-            system->loops->rates(work, at.begin, at.end);
+            if (system->rates != NULL) {
+                system->rates(system, at.begin, at.end);
+            } else {
+                system->loops->rates(work, at.begin, at.end);
+            }
         }
     }
     return true;
 }
 
-static void refresh(void *of, size_t begin, size_t end)
+void solver_upwind_refresh(void *of, size_t begin, size_t end)
 {
-    const struct system *system = of;
+    const struct solver_upwind_system *system = of;
     system->loops->stresses(&system->work, begin, end);
 }
 
 /* The step that the CFL number allows (eq. 41). */
-static double largest_step(const void *of)
+double solver_upwind_largest_step(const void *of)
 {
-    const struct system *system = of;
+    const struct solver_upwind_system *system = of;
     const struct solver_upwind *work = &system->work;
     size_t count = system->body->cloud->count;
     double fastest = 0.0;
@@ -254,15 +257,15 @@ static double largest_step(const void *of)
     return system->body->scene->cfl * system->body->cloud->spacing / fastest;
 }
 
-static size_t first_broken(const void *of, size_t begin, size_t end)
+size_t solver_upwind_first_broken(const void *of, size_t begin, size_t end)
 {
-    const struct system *system = of;
+    const struct solver_upwind_system *system = of;
     return system->loops->first_broken(&system->work, begin, end);
 }
 
-static const char *complaint(const void *of, size_t a)
+const char *solver_upwind_complaint(const void *of, size_t a)
 {
-    const struct system *system = of;
+    const struct solver_upwind_system *system = of;
     const struct solver_upwind *work = &system->work;
     size_t tensor = (size_t)system->body->cloud->dim * system->loops->lanes;
     double J;
@@ -277,7 +280,7 @@ static const char *complaint(const void *of, size_t a)
 }
 
 /* A padded tensor of particle a, row by row. */
-static void rows_of(const struct system *system, const double *field, size_t a, double *rows)
+static void rows_of(const struct solver_upwind_system *system, const double *field, size_t a, double *rows)
 {
     size_t dim = (size_t)system->body->cloud->dim;
     size_t lanes = system->loops->lanes;
@@ -289,7 +292,7 @@ static void rows_of(const struct system *system, const double *field, size_t a, 
 }
 
 /* F, and H and J: evolved, or those of F. */
-static void measures_of(const struct system *system, size_t a, struct solver_point *point)
+static void measures_of(const struct solver_upwind_system *system, size_t a, struct solver_point *point)
 {
     const struct solver_upwind *work = &system->work;
     size_t tensor = (size_t)system->body->cloud->dim * system->loops->lanes;
@@ -304,7 +307,7 @@ static void measures_of(const struct system *system, size_t a, struct solver_poi
 }
 
 /* sigma = P F^T / J; with linear kinematics sigma = P. */
-static void cauchy(const struct system *system, struct solver_point *point)
+static void cauchy(const struct solver_upwind_system *system, struct solver_point *point)
 {
     size_t dim = (size_t)system->body->cloud->dim;
     bool linear = system->work.frozen;
@@ -323,9 +326,9 @@ static void cauchy(const struct system *system, struct solver_point *point)
     }
 }
 
-static void look(const void *of, size_t a, struct solver_point *point)
+void solver_upwind_look(const void *of, size_t a, struct solver_point *point)
 {
-    const struct system *system = of;
+    const struct solver_upwind_system *system = of;
     const struct solver_upwind *work = &system->work;
     measures_of(system, a, point);
     rows_of(system, work->P, a, point->P);
@@ -340,9 +343,9 @@ static void look(const void *of, size_t a, struct solver_point *point)
     cauchy(system, point);
 }
 
-static double energy(const void *of, size_t a)
+double solver_upwind_energy(const void *of, size_t a)
 {
-    const struct system *system = of;
+    const struct solver_upwind_system *system = of;
     const struct solver_upwind *work = &system->work;
     struct solver_point point;
     const struct solver_material_constants *constants = work->constants + a * work->stride;
@@ -352,40 +355,27 @@ static double energy(const void *of, size_t a)
                           : work->material->energy(constants, point.F, point.H, point.J);
 }
 
-static double dissipated(const void *of, size_t a)
+double solver_upwind_dissipated(const void *of, size_t a)
 {
-    const struct system *system = of;
+    const struct solver_upwind_system *system = of;
     const double *memory = memory_of(&system->work, a);
     return memory != NULL ? solver_hardening_work(system->work.hardening, memory[0]) : 0.0;
 }
 
 static const struct solver_scheme_choice choices[] = {
-    {"evolved = \"pF\"", "linear momentum p and deformation gradient F"},
-    {"evolved = \"pFJ\"", "p, F and Jacobian J"},
-    {"evolved = \"pFHJ\"", "p, F, cofactor H and J"},
+    SOLVER_UPWIND_EVOLVED,
     {NULL, NULL},
 };
 
 const struct solver_scheme solver_scheme_upwind = {
     .name = "upwind",
     .summary = "total-Lagrangian mixed method with Riemann dissipation (000_e9ec29e1bde7947d.txt)",
-    .choice = choices,
-    .deformation = true,
-    .stencil = true,
     .advice = "a smaller cfl, a finer n, or evolved = \"pFHJ\"",
+    .choice = choices,
     .claims = {.affine = "", .turning = "", .momentum = ""},
     .create = create,
-    .destroy = destroy,
-    .geometry = geometry,
-    .fields = fields,
-    .start = start,
-    .prepare = prepare,
-    .evaluate = evaluate,
-    .refresh = refresh,
-    .largest_step = largest_step,
-    .first_broken = first_broken,
-    .complaint = complaint,
-    .look = look,
-    .energy = energy,
-    .dissipated = dissipated,
+    .destroy = solver_upwind_destroy,
+    .geometry = solver_upwind_geometry,
+    .fields = solver_upwind_fields,
+    SOLVER_UPWIND_SHARED,
 };

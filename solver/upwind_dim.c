@@ -1,10 +1,8 @@
 #include "solver/upwind.h"
 
-#include "solver/dim.h"
+#include "solver/dim_sums.h"
 
 #include <math.h>
-
-enum { TENSOR = DIM * LANES, PAIR = DIM + 1 };
 
 /* sum_b (f_b - f_a) w_ab of a vector field, weights [pairs] with the given stride. */
 static inline struct tensor vector_gradient(const struct solver_upwind *work, size_t a, const double *field,
@@ -82,13 +80,6 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
         }
     }
 }
-
-/* Sums over the neighbours of one particle. */
-struct sums {
-    vec force;       /* twice the internal force: sum_b P_b D_ab + P_a sum_b C_ab */
-    vec dissipation; /* twice V_a D(p_a) (eq. 30) */
-    double volume;   /* 2 z_p V_a D(J_a) (eq. 30) */
-};
 
 /* Impedances of a pair: z v jumps in the acoustic Riemann problem of eq. 27, 28, with 2 z_a z_b / (z_a + z_b) where
  * materials meet. */
@@ -206,25 +197,6 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
         }
     }
     return sums;
-}
-
-static inline void finish(const struct solver_upwind *work, size_t a, struct sums sums)
-{
-    const struct solver_material_constants *of_a = work->constants + a * work->stride;
-    double per_V = 1.0 / work->V[a];
-    for (int I = 0; I < DIM; I++) {
-        sums.force += load(work->P + a * TENSOR + I * LANES) * work->row_sum[a * DIM + (size_t)I];
-    }
-    store(work->v_rate + a * LANES, (0.5 * per_V / of_a->rho) * (sums.force + sums.dissipation));
-    struct tensor G = load_tensor(work->F_rate + a * TENSOR);
-    if (work->evolves_J) {
-        double compression = work->frozen ? trace(G) : contract(load_tensor(work->cofactor + a * TENSOR), G);
-        work->J_rate[a] = compression + sums.volume * per_V / (2.0 * of_a->zp);
-    }
-    if (work->evolves_H) {
-        struct tensor F = work->frozen ? identity() : load_tensor(work->F + a * TENSOR);
-        store_tensor(work->H_rate + a * TENSOR, tensor_cross(F, G));
-    }
 }
 
 static inline __attribute__((always_inline)) void rates_with(const struct solver_upwind *work, size_t begin, size_t end,

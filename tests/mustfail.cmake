@@ -23,8 +23,8 @@ endif()
 add_library(assay_main OBJECT ${CMAKE_SOURCE_DIR}/verify/main.c)
 target_link_libraries(assay_main PRIVATE assay_verify)
 
-# assay_mutate(NAME LIBRARY...): the broken source as objects, compiled as in each of the libraries; their names become
-# `objects`.
+# assay_mutate(NAME LIBRARY...): the broken source, or the one that includes the broken header, as objects compiled as in
+# each of the libraries; their names become `objects`.
 function(assay_mutate name)
   set(mutant ${CMAKE_CURRENT_SOURCE_DIR}/mutants/${name}.mutant)
   set(broken ${CMAKE_BINARY_DIR}/mutants/${name}/${source})
@@ -34,13 +34,20 @@ function(assay_mutate name)
     COMMAND ${Python3_EXECUTABLE} ${script} ${CMAKE_SOURCE_DIR} ${mutant} ${broken})
   # Objects of several libraries come from one file: it must be there before the first of them is compiled.
   add_custom_target(source_of_${name} DEPENDS ${broken})
+  set(compiled ${broken})
+  if(NOT through STREQUAL source)
+    set(compiled ${CMAKE_SOURCE_DIR}/${through})
+  endif()
   set(objects "")
   foreach(library ${ARGN})
-    add_library(mutated_${name}_${library} OBJECT ${broken})
+    add_library(mutated_${name}_${library} OBJECT ${compiled})
     add_dependencies(mutated_${name}_${library} source_of_${name})
+    # What other tools check is the file as it is.
+    set_target_properties(mutated_${name}_${library} PROPERTIES EXPORT_COMPILE_COMMANDS OFF)
     target_compile_definitions(mutated_${name}_${library} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_DEFINITIONS>)
     target_compile_options(mutated_${name}_${library} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_OPTIONS>)
-    target_include_directories(mutated_${name}_${library} PRIVATE ${CMAKE_SOURCE_DIR})
+    target_include_directories(mutated_${name}_${library} PRIVATE ${CMAKE_BINARY_DIR}/mutants/${name}
+      ${CMAKE_SOURCE_DIR})
     target_include_directories(mutated_${name}_${library} SYSTEM PRIVATE
       $<TARGET_PROPERTY:${library},INCLUDE_DIRECTORIES>)
     list(APPEND objects $<TARGET_OBJECTS:mutated_${name}_${library}>)
@@ -48,17 +55,22 @@ function(assay_mutate name)
   set(objects ${objects} PARENT_SCOPE)
 endfunction()
 
-# Sets `source` to the file that a mutant breaks.
+# Sets `source` to the file that a mutant breaks, and `through` to the source that has it compiled.
 macro(assay_mutant_source name)
   file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/mutants/${name}.mutant source REGEX "^source: " LIMIT_COUNT 1)
   string(REPLACE "source: " "" source "${source}")
+  file(STRINGS ${CMAKE_CURRENT_SOURCE_DIR}/mutants/${name}.mutant through REGEX "^through: " LIMIT_COUNT 1)
+  string(REPLACE "through: " "" through "${through}")
+  if(NOT through)
+    set(through ${source})
+  endif()
 endmacro()
 
 # assay_mutant(NAME GATES WORD...): `verify WORD...` must fail, by these gates among others.
 function(assay_mutant name gates)
   assay_mutant_source(${name})
   set(library assay_solver)
-  if(source MATCHES "_dim\\.c$")
+  if(through MATCHES "_dim\\.c$")
     set(library assay_solver_3d) # all scenes of these tests are in 3D
   endif()
   assay_mutate(${name} ${library})
@@ -72,7 +84,7 @@ endfunction()
 function(assay_unit_mutant name unit test)
   assay_mutant_source(${name})
   set(libraries assay_solver)
-  if(source MATCHES "_dim\\.c$")
+  if(through MATCHES "_dim\\.c$")
     set(libraries assay_solver_1d assay_solver_2d assay_solver_3d)
   endif()
   assay_mutate(${name} ${libraries})
@@ -95,6 +107,7 @@ assay_mutant(rk4-weight "p,P" ${quick_sbp4})
 assay_mutant(return-map-hardening "P_all" plastic-cube --levels 3 --set threads=1)
 assay_mutant(plastic-memory "P_all" plastic-cube --levels 3 --set threads=1)
 
+assay_unit_mutant(jst-biharmonic-sign solver_jst "its work is the Laplacian's square")
 assay_unit_mutant(ulsph-spin-sign solver_ulsph_gradients "linear velocity")
 assay_unit_mutant(ulsph-divergence-correction solver_ulsph_forces "work of forces is that of stress")
 assay_unit_mutant(ulsph-tension-factor solver_ulsph_forces "a constant tension")

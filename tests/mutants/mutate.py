@@ -2,6 +2,7 @@
 
     why, in words
     source: FILE
+    through: FILE, of a header: the source that includes it and is compiled with it
     --- was
     text that stands exactly once in FILE
     +++ is
@@ -13,7 +14,7 @@ import os
 import re
 import sys
 
-FORM = re.compile(r".+?\nsource: ([^\n]+)\n--- was\n(.+?)\n\+\+\+ is\n(.*)\n", re.DOTALL)
+FORM = re.compile(r".+?\nsource: ([^\n]+)\n(?:through: [^\n]+\n)?--- was\n(.+?)\n\+\+\+ is\n(.*)\n", re.DOTALL)
 
 
 def main():
@@ -21,7 +22,7 @@ def main():
     with open(mutant, encoding="utf-8") as file:
         form = FORM.fullmatch(file.read())
     if not form:
-        sys.exit(f"{mutant}: expected: why, 'source: FILE', '--- was', text, '+++ is', text; see tests/mutants/mutate.py")
+        sys.exit(f"{mutant}: expected: why, 'source: FILE', for a header 'through: FILE', '--- was', text, '+++ is', text; see tests/mutants/mutate.py")
     source, was, broken = form.groups()
     if was == broken:
         sys.exit(f"{mutant}: both texts are the same; nothing would be broken")

@@ -14,6 +14,9 @@ gates = {
     -- measured 5.059e-02, 1.163e-01
     { when = { stencil = "sph", integrator = "tvd-rk2", cfl = 0.3 },
       p = 5.32e-2, P = 1.23e-1 },
+    -- three periods, at n = 16 alone: measured 1.722e-03, 2.525e-03
+    { when = { scheme = "jst", stencil = "sbp4", t_end = 0.05 },
+      p = 1.81e-3, P = 2.65e-3 },
     -- nine times as long, at n = 24 alone: measured 5.339e-05, 3.702e-05
     { when = { stencil = "sbp4", t_end = 0.018 },
       p = 5.61e-5, P = 3.89e-5 },

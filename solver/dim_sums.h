@@ -1,0 +1,36 @@
+/* What a particle's rates are made of, for the schemes on the system of upwind.h, whatever their dissipation. */
+#ifndef SOLVER_DIM_SUMS_H
+#define SOLVER_DIM_SUMS_H
+
+#include "solver/dim.h"
+#include "solver/upwind.h"
+
+enum { TENSOR = DIM * LANES, PAIR = DIM + 1 };
+
+/* Sums over the neighbours of one particle. */
+struct sums {
+    vec force;       /* twice the internal force: sum_b P_b D_ab + P_a sum_b C_ab */
+    vec dissipation; /* twice V_a D(p_a) (eq. 30) */
+    double volume;   /* 2 z_p V_a D(J_a) (eq. 30) */
+};
+
+static inline void finish(const struct solver_upwind *work, size_t a, struct sums sums)
+{
+    const struct solver_material_constants *of_a = work->constants + a * work->stride;
+    double per_V = 1.0 / work->V[a];
+    for (int I = 0; I < DIM; I++) {
+        sums.force += load(work->P + a * TENSOR + I * LANES) * work->row_sum[a * DIM + (size_t)I];
+    }
+    store(work->v_rate + a * LANES, (0.5 * per_V / of_a->rho) * (sums.force + sums.dissipation));
+    struct tensor G = load_tensor(work->F_rate + a * TENSOR);
+    if (work->evolves_J) {
+        double compression = work->frozen ? trace(G) : contract(load_tensor(work->cofactor + a * TENSOR), G);
+        work->J_rate[a] = compression + sums.volume * per_V / (2.0 * of_a->zp);
+    }
+    if (work->evolves_H) {
+        struct tensor F = work->frozen ? identity() : load_tensor(work->F + a * TENSOR);
+        store_tensor(work->H_rate + a * TENSOR, tensor_cross(F, G));
+    }
+}
+
+#endif

@@ -1,0 +1,79 @@
+#include "solver/jst.h"
+
+#include "solver/dim_sums.h"
+
+/* Where materials meet, the volumetric stress has a jump of its own, and so has J: nothing evens that out. */
+static inline bool alike(const struct solver_upwind *work, size_t a, size_t b)
+{
+    return work->stride == 0 || work->constants[a].kappa == work->constants[b].kappa;
+}
+
+static void gather(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        const struct solver_material_constants *of_a = work->constants + a * work->stride;
+        double per_V = 1.0 / work->V[a];
+        vec v_a = load(work->v + a * LANES);
+        vec of_v = {0};
+        double of_J = 0.0;
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            size_t b = work->neighbour[ab];
+            of_v += (load(work->v + b * LANES) - v_a) * jst->laplacian[2 * ab];
+            if (work->evolves_J && alike(work, a, b)) {
+                of_J += (work->J[b] - work->J[a]) * jst->laplacian[2 * ab];
+            }
+        }
+        store(jst->v_laplacian + a * LANES, (per_V * of_a->zp) * of_v);
+        if (work->evolves_J) {
+            jst->J_laplacian[a] = per_V * of_a->cp * of_J;
+        }
+    }
+}
+
+/* The mean of a constant of two particles that exchange. */
+static inline double mean(double of_a, double of_b)
+{
+    return 0.5 * (of_a + of_b);
+}
+
+/* Forces and fluxes of eq. 3.14, summed as finish takes them. */
+static inline struct sums sum_pairs(const struct solver_upwind *work, const struct solver_jst *jst, size_t a)
+{
+    struct sums sums = {.volume = 0.0};
+    const struct solver_material_constants *of_a = work->constants + a * work->stride;
+    const double *weights = work->transposed != NULL ? work->transposed : work->pair;
+    size_t stride = work->transposed != NULL ? DIM : PAIR;
+    double outer = -jst->biharmonic; /* eq. 3.13b */
+    vec v_a = load(work->v + a * LANES);
+    vec L_a = load(jst->v_laplacian + a * LANES);
+    vec momentum = {0};
+    double volume = 0.0;
+    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+        size_t b = work->neighbour[ab];
+        const struct solver_material_constants *of_b = work->constants + b * work->stride;
+        double l_ab = outer * jst->laplacian[2 * ab];
+        double l_ba = outer * jst->laplacian[2 * ab + 1];
+        double k_ab = jst->exchange != NULL ? jst->harmonic * jst->exchange[ab] : 0.0;
+        for (int I = 0; I < DIM; I++) {
+            sums.force += load(work->P + b * TENSOR + I * LANES) * weights[ab * stride + (size_t)I];
+        }
+        momentum += l_ba * load(jst->v_laplacian + b * LANES) - l_ab * L_a;
+        momentum += (k_ab * mean(of_a->zp, of_b->zp)) * (load(work->v + b * LANES) - v_a);
+        if (work->evolves_J && alike(work, a, b)) {
+            volume += l_ba * jst->J_laplacian[b] - l_ab * jst->J_laplacian[a];
+            volume += k_ab * mean(of_a->cp, of_b->cp) * (work->J[b] - work->J[a]);
+        }
+    }
+    sums.dissipation = 2.0 * momentum;
+    sums.volume = 2.0 * of_a->zp * volume;
+    return sums;
+}
+
+static void rates(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        finish(work, a, sum_pairs(work, jst, a));
+    }
+}
+
+const struct solver_jst_loops DIM_NAME(solver_jst) = {.gather = gather, .rates = rates};

@@ -1,0 +1,180 @@
+/* JST-SPH (004_0c0448173ed5e9bd.txt) as a scheme of the table: forces and geometric measures of the mixed
+ * total-Lagrangian system, with the dissipation of jst.h. The Laplacian's weights are made here, once. */
+#include "solver/jst.h"
+#include "solver/memory.h"
+#include "solver/scheme_upwind.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct system {
+    struct solver_upwind_system base; /* first */
+    struct solver_jst jst;
+    double *laplacian, *exchange;
+};
+
+static void destroy(void *of)
+{
+    struct system *system = of;
+    if (system != NULL) {
+        free(system->laplacian);
+        free(system->exchange);
+    }
+    solver_upwind_destroy(system);
+}
+
+/* Of particle a: k = A_ab / |X_ab| of each of its pairs into `weight`, and what scales and corrects them. */
+struct sums {
+    double scale;     /* s_a */
+    double moment[3]; /* m_a [m^(dim - 1)] */
+};
+
+static struct sums sum_weights(const struct solver_stencil *stencil, const double *X, size_t a, double *weight)
+{
+    size_t dim = (size_t)stencil->dim;
+    struct sums sums = {.scale = 0.0};
+    double second = 0.0;
+    for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
+        const double *X_b = X + stencil->graph.neighbour[ab] * dim;
+        double d[3] = {0};
+        double square = 0.0;
+        for (size_t i = 0; i < dim; i++) {
+            d[i] = X_b[i] - X[a * dim + i];
+            square += d[i] * d[i];
+        }
+        weight[ab] = solver_stencil_C(stencil, ab)[dim] / sqrt(square);
+        second += weight[ab] * square;
+        for (size_t i = 0; i < dim; i++) {
+            sums.moment[i] += weight[ab] * d[i];
+        }
+    }
+    sums.scale = second > 0.0 ? 2.0 * (double)dim * stencil->V[a] / second : 0.0;
+    for (size_t i = 0; i < dim; i++) {
+        sums.moment[i] *= sums.scale;
+    }
+    return sums;
+}
+
+/* g_ab . m_a: what a linear field's part of the sum takes away. */
+static double correction(const struct solver_stencil *stencil, size_t a, size_t ab, const double *moment)
+{
+    size_t dim = (size_t)stencil->dim;
+    const double *g =
+        stencil->least_squares != NULL ? stencil->least_squares + ab * dim : solver_stencil_C(stencil, ab);
+    double scale = stencil->least_squares != NULL ? 1.0 : 0.5 / stencil->V[a];
+    double sum = 0.0;
+    for (size_t i = 0; i < dim; i++) {
+        sum += scale * g[i] * moment[i];
+    }
+    return sum;
+}
+
+static bool make_weights(struct system *system, bool harmonic, bool corrected, struct solver_error *error)
+{
+    const struct solver_stencil *stencil = system->base.stencil;
+    const struct solver_graph *graph = &stencil->graph;
+    double *weight = NULL;
+    double *scale = NULL;
+    bool done = solver_alloc((void **)&weight, stencil->pairs, sizeof *weight, "weights of a Laplacian", error) &&
+                solver_alloc((void **)&scale, stencil->count, sizeof *scale, "weights of a Laplacian", error) &&
+                solver_alloc((void **)&system->laplacian, 2 * stencil->pairs, sizeof(double), "Laplacian", error) &&
+                (!harmonic ||
+                 solver_alloc((void **)&system->exchange, stencil->pairs, sizeof(double), "harmonic weights", error));
+    for (size_t a = 0; done && a < stencil->count; a++) {
+        struct sums sums = sum_weights(stencil, system->base.body->cloud->X, a, weight);
+        scale[a] = sums.scale;
+        for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
+            double l = sums.scale * weight[ab] - (corrected ? correction(stencil, a, ab, sums.moment) : 0.0);
+            system->laplacian[2 * ab] = l;
+            system->laplacian[2 * solver_graph_find(graph, graph->neighbour[ab], a) + 1] = l;
+        }
+    }
+    for (size_t a = 0; done && harmonic && a < stencil->count; a++) {
+        for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
+            system->exchange[ab] = 0.5 * (scale[a] + scale[graph->neighbour[ab]]) * weight[ab];
+        }
+    }
+    free(weight);
+    free(scale);
+    return done;
+}
+
+static const struct solver_jst_loops *loops_of(const struct system *system)
+{
+    static const struct solver_jst_loops *const loops[] = {&solver_jst_1d, &solver_jst_2d, &solver_jst_3d};
+    return loops[system->base.body->cloud->dim - 1];
+}
+
+static void gather(const void *of, size_t begin, size_t end)
+{
+    const struct system *system = of;
+    loops_of(system)->gather(&system->base.work, &system->jst, begin, end);
+}
+
+static void rates(const void *of, size_t begin, size_t end)
+{
+    const struct system *system = of;
+    loops_of(system)->rates(&system->base.work, &system->jst, begin, end);
+}
+
+static bool create(const struct solver_body *body, void **out, struct solver_error *error)
+{
+    const struct solver_scene *scene = body->scene;
+    double dx = body->cloud->spacing;
+    void *made = NULL;
+    if (!solver_upwind_create(body, sizeof(struct system), &made, error)) {
+        return false;
+    }
+    struct system *system = made;
+    system->base.gather = gather;
+    system->base.rates = rates;
+    if (!make_weights(system, scene->jst.kappa2 > 0.0, system->base.work.reconstruct, error)) {
+        destroy(system);
+        return false;
+    }
+    system->jst.harmonic = scene->jst.kappa2 * dx;
+    system->jst.biharmonic = scene->jst.kappa4 * dx * dx * dx;
+    system->jst.laplacian = system->laplacian;
+    system->jst.exchange = system->exchange;
+    *out = system;
+    return true;
+}
+
+static struct solver_geometry geometry(const void *of)
+{
+    const struct system *system = of;
+    struct solver_geometry geometry = solver_upwind_geometry(system);
+    geometry.bytes += (double)(geometry.pairs * (system->exchange != NULL ? 3 : 2) * sizeof(double));
+    return geometry;
+}
+
+static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
+{
+    struct system *system = of;
+    size_t rows = solver_upwind_fields(system, table);
+    bool J = system->base.work.evolves_J;
+    table[rows++] = (struct solver_field){"Lap v", system->base.loops->lanes, false, &system->jst.v_laplacian, NULL, 0};
+    table[rows++] = (struct solver_field){"Lap J", J ? 1 : 0, false, &system->jst.J_laplacian, NULL, 0};
+    return rows;
+}
+
+static const struct solver_scheme_choice choices[] = {
+    SOLVER_UPWIND_EVOLVED,
+    {"jst.kappa2", "harmonic dissipation; 0: none"},
+    {"jst.kappa4", "biharmonic dissipation; 0: none"},
+    {NULL, NULL},
+};
+
+const struct solver_scheme solver_scheme_jst = {
+    .name = "jst",
+    .summary = "total-Lagrangian mixed method with harmonic and biharmonic dissipation (004_0c0448173ed5e9bd.txt)",
+    .advice = "a smaller cfl, another jst.kappa4, a finer n, or evolved = \"pFHJ\"",
+    .choice = choices,
+    .claims = {.affine = "", .turning = "", .momentum = ""},
+    .create = create,
+    .destroy = destroy,
+    .geometry = geometry,
+    .fields = fields,
+    SOLVER_UPWIND_SHARED,
+};

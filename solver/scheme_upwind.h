@@ -1,0 +1,56 @@
+/* The system of the mixed total-Lagrangian methods: stencil, fields {p,F}, {p,F,J} or {p,F,H,J}, internal forces and
+ * the equations of the geometric measures. The scheme `upwind` is it with its Riemann dissipation; a scheme with
+ * another one has a struct that starts with this, and gives its own create, destroy, geometry and fields. */
+#ifndef SOLVER_SCHEME_UPWIND_H
+#define SOLVER_SCHEME_UPWIND_H
+
+#include "solver/scheme.h"
+#include "solver/stencil.h"
+#include "solver/upwind.h"
+
+struct solver_upwind_system {
+    const struct solver_body *body;
+    const struct solver_upwind_loops *loops;
+    struct solver_stencil *stencil;
+    struct solver_stencil_residuals residuals;
+    struct solver_upwind work;
+    /* Of a scheme whose dissipation is not Riemann's, for particles [begin, end), in a thread; else NULL. The first
+     * follows the gradients and may read the state of neighbours, the second stands for the rates of upwind.h and may
+     * read what the first has left at neighbours. */
+    void (*gather)(const void *system, size_t begin, size_t end);
+    void (*rates)(const void *system, size_t begin, size_t end);
+};
+
+/* `size`: of the struct that starts with the system. */
+bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error);
+void solver_upwind_destroy(void *of);
+/* The others, as in the table of schemes. */
+struct solver_geometry solver_upwind_geometry(const void *of);
+size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS]);
+bool solver_upwind_start(void *of, struct solver_error *error);
+bool solver_upwind_prepare(void *of, double dt, struct solver_error *error);
+bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *error);
+void solver_upwind_refresh(void *of, size_t begin, size_t end);
+double solver_upwind_largest_step(const void *of);
+size_t solver_upwind_first_broken(const void *of, size_t begin, size_t end);
+const char *solver_upwind_complaint(const void *of, size_t a);
+void solver_upwind_look(const void *of, size_t a, struct solver_point *point);
+double solver_upwind_energy(const void *of, size_t a);
+double solver_upwind_dissipated(const void *of, size_t a);
+
+/* clang-format off */
+/* Rows of a scheme's choices: the evolved sets. */
+#define SOLVER_UPWIND_EVOLVED                                                                                          \
+    {"evolved = \"pF\"", "linear momentum p and deformation gradient F"},                                              \
+    {"evolved = \"pFJ\"", "p, F and Jacobian J"},                                                                      \
+    {"evolved = \"pFHJ\"", "p, F, cofactor H and J"}
+/* clang-format on */
+
+/* What such schemes have in common, for their initializers. */
+#define SOLVER_UPWIND_SHARED                                                                                           \
+    .deformation = true, .stencil = true, .start = solver_upwind_start, .prepare = solver_upwind_prepare,              \
+    .evaluate = solver_upwind_evaluate, .refresh = solver_upwind_refresh, .largest_step = solver_upwind_largest_step,  \
+    .first_broken = solver_upwind_first_broken, .complaint = solver_upwind_complaint, .look = solver_upwind_look,      \
+    .energy = solver_upwind_energy, .dissipated = solver_upwind_dissipated
+
+#endif
