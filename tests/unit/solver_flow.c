@@ -51,9 +51,10 @@ static double kirchhoff(const struct particle *at, const double *F)
     double normal = dim < 3 ? at->sample->material->flow->stress_normal(&at->sample->constants, F, J, at->memory) : 0.0;
     for (size_t k = 0; k < 9; k++) {
         size_t i = k / 3, j = k % 3;
-        tau[k] = i == j ? normal : 0.0; /* F = 1 there */
-        for (size_t I = 0; i < dim && j < dim && I < dim; I++) {
-            tau[k] = (I > 0 ? tau[k] : 0.0) + at->P[i * dim + I] * F[j * dim + I];
+        bool in_plane = i < dim && j < dim;
+        tau[k] = i == j && !in_plane ? normal : 0.0; /* F = 1 there */
+        for (size_t I = 0; in_plane && I < dim; I++) {
+            tau[k] += at->P[i * dim + I] * F[j * dim + I];
         }
     }
     double mean = (tau[0] + tau[4] + tau[8]) / 3;
@@ -176,7 +177,7 @@ static void objective(struct particle *at)
 /* Plane and uniaxial strain are the three-dimensional material with F the identity out of the plane. */
 static void embedded(struct particle *at)
 {
-    static const size_t same[2][MOST] = {{0, 1, 2, 2}, {0, 1, 2, 4, 3}}; /* 3D's e, xx, yy, zz, xy */
+    static const size_t same[2][5] = {{0, 1, 3}, {0, 1, 2, 4, 3}}; /* where 3D has what is remembered in 1D and 2D */
     size_t dim = at->sample->dim;
     struct sample in_3d = *at->sample;
     if (dim == 3) {
@@ -202,12 +203,11 @@ static void embedded(struct particle *at)
         double scale = at->sample->modulus + largest_entry(9, other.P);
         expect(at->sample, "stress against 3D", difference, 1e-13 * (i + 1) * scale);
         for (size_t k = 0; k < at->sample->material->flow->width; k++) {
-            size_t there = dim == 2 && k == 3 ? 4 : dim == 2 && k == 4 ? 3 : same[0][k];
+            size_t there = same[dim - 1][k];
             expect(at->sample, "memory against 3D", fabs(at->memory[k] - other.memory[there]),
                    1e-13 * (i + 1) * (1 + largest_entry(MOST, other.memory)));
         }
     }
-    (void)same;
 }
 
 /* F(s) of a path that turns as it goes: no return map is exact on it. */
