@@ -124,7 +124,8 @@ static double momentum_norm(const struct solver_record *record)
 static double energy_norm(const struct solver_record *record)
 {
     return fmax(fmax(columns_norm(record, "kinetic_energy"), columns_norm(record, "strain_energy")),
-                fmax(columns_norm(record, "total_energy"), columns_norm(record, "external_work")));
+                fmax(fmax(columns_norm(record, "total_energy"), columns_norm(record, "external_work")),
+                     columns_norm(record, "plastic_work")));
 }
 
 static bool starts(const char *name, const char *start)
@@ -151,7 +152,7 @@ static double column_scale(const struct solver_record *record, size_t column)
         const double reach = max_norm(record->X, 3 * record->count);
         return fmax(columns_norm(record, "angular_momentum"), reach * momentum_norm(record));
     }
-    if (is(name, "external_work") || ends(name, "_energy", 0)) {
+    if (is(name, "external_work") || is(name, "plastic_work") || ends(name, "_energy", 0)) {
         return energy_norm(record);
     }
     if (starts(name, "probe_") && ends(name, "_u_", 1)) {

@@ -236,9 +236,9 @@ static const struct j2_cycle_path stretch = {.component = 0}, shear = {.componen
                                   hencky = {.component = 0, .logarithmic = true};
 
 #define J2_CYCLE                                                                                                       \
-    .dim = 3, .smoothness = ORACLE_SMOOTH, .awaits = "plasticity", .parameter = parameters, .extra = j2_extra,         \
-    .create_as = create, .destroy = oracle_release, .reach = reach, .state = state, .extras = extras,                  \
-    .outside = outside, .energy = energy, .figures = figures, .check = j2_cycle_check
+    .dim = 3, .smoothness = ORACLE_SMOOTH, .parameter = parameters, .extra = j2_extra, .create_as = create,            \
+    .destroy = oracle_release, .reach = reach, .state = state, .extras = extras, .outside = outside, .energy = energy, \
+    .figures = figures, .check = j2_cycle_check
 
 const struct oracle_kind oracle_j2_uniaxial = {
     .name = "j2-uniaxial",

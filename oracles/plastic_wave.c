@@ -222,7 +222,6 @@ const struct oracle_kind oracle_plastic_wave = {
               "section 4.1",
     .dim = 1,
     .smoothness = ORACLE_JUMPS,
-    .awaits = "plasticity",
     .parameter = parameters,
     .extra = j2_extra,
     .create = create,

@@ -12,6 +12,7 @@
 DECLARE(solver_linear_elastic);
 DECLARE(solver_neo_hookean);
 DECLARE(solver_neo_hookean_polyconvex);
+DECLARE(solver_hencky);
 
 static const struct solver_material_model models[] = {
     {"linear-elastic", "Hooke's law, small strain", IN_EVERY_DIMENSION(solver_linear_elastic)},
@@ -19,6 +20,8 @@ static const struct solver_material_model models[] = {
      IN_EVERY_DIMENSION(solver_neo_hookean)},
     {"neo-hookean-polyconvex", "neo-Hookean, the evolved J in both energies: polyconvex",
      IN_EVERY_DIMENSION(solver_neo_hookean_polyconvex)},
+    {"hencky", "Hencky's: quadratic in logarithmic strains; with material.yield_stress it flows plastically",
+     IN_EVERY_DIMENSION(solver_hencky)},
     {NULL, NULL, {NULL}},
 };
 

@@ -6,6 +6,8 @@
 #ifndef SOLVER_MATERIAL_H
 #define SOLVER_MATERIAL_H
 
+#include "solver/hardening.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -21,8 +23,30 @@ struct solver_material_constants {
 /* From Young's modulus [Pa], Poisson's ratio in (-1, 0.5) and density [kg/m^3]. */
 struct solver_material_constants solver_material_constants(double E, double nu, double rho);
 
+/* Plastic flow. What a particle remembers are `width` numbers, all zero in the virgin material: the equivalent plastic
+ * strain, then the components of the inverse plastic right Cauchy-Green tensor less the identity, Cp^-1 - 1: xx, zz in
+ * 1D (yy is zz); xx, yy, xy, zz in 2D; xx, yy, zz, xy, yz, zx in 3D. With none of it, stresses and energies are those
+ * of the elastic material. */
+struct solver_flow {
+    size_t width;
+    /* The hot loop: stress of particles begin to end - 1 (as stress_range), and what they then remember, `now`, from
+     * what they remembered `before`, by one return map from there to F. Both are [count][width]. */
+    void (*stress_range)(const struct solver_material_constants *material, size_t stride,
+                         const struct solver_hardening *hardening, size_t begin, size_t end, const double *F,
+                         const double *H, const double *J, const double *before, double *now, double *P);
+    /* Elastic energy [J/m^3]. */
+    double (*energy)(const struct solver_material_constants *material, const double *F, double J, const double *now);
+    /* The component of P normal to the plane [Pa]; below 3D only. */
+    double (*stress_normal)(const struct solver_material_constants *material, const double *F, double J,
+                            const double *now);
+    /* An upper bound of the speeds [m/s] of elastic waves; plastic ones are slower. */
+    double (*fastest)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                      const double *F, const double *now);
+};
+
 struct solver_material {
     bool linear;
+    const struct solver_flow *flow; /* NULL: it knows no plastic flow */
     /* W [J/m^3] */
     double (*energy)(const struct solver_material_constants *material, const double *F, const double *H, double J);
     /* P = dW/dF + dW/dH x F + dW/dJ H [Pa] */
@@ -32,7 +56,8 @@ struct solver_material {
     double (*stress_normal)(const struct solver_material_constants *material, const double *F, double J);
     /* A_iIjJ = dP_iI/dF_jJ with H = cof F, J = det F: [dim]^4 [Pa] */
     void (*tangent)(const struct solver_material_constants *material, const double *F, double *A);
-    /* Speeds [m/s] of the dim plane waves along the reference direction N, increasing. */
+    /* Speeds [m/s] of the dim plane waves along the reference direction N, increasing; 0 for one that does not run
+     * because the material has lost its ellipticity. */
     void (*wave_speeds)(const struct solver_material_constants *material, const double *F, const double *N,
                         double *speeds);
     /* The hot loop: P of particles begin to end - 1, padded columns (dim.h). H, J NULL: those of F. */
@@ -41,7 +66,8 @@ struct solver_material {
     /* Volumetric stress U'(J) [Pa] of particles begin to end - 1. */
     void (*volumetric_range)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                              const double *J, double *pressure);
-    /* An upper bound of the wave speeds [m/s] in all directions over particles begin to end - 1; exact at rest. */
+    /* An upper bound, above zero, of the wave speeds [m/s] in all directions over particles begin to end - 1; exact at
+     * rest. */
     double (*fastest)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                       const double *F);
 };

@@ -116,6 +116,8 @@ static bool add_fields(struct solver_record *record, const struct solver_scene *
            add_numbers(record, "body", output->cloud->body, error) &&
            add_vector(record, "displacement", "m", output->u, error) &&
            add_vector(record, "momentum", "kg/(m^2 s)", output->p, error) &&
+           (output->plastic_strain == NULL ||
+            add_scalar(record, "plastic_strain", "-", output->plastic_strain, error)) &&
            add_scalar(record, "pressure", "Pa", output->pressure, error) &&
            add_tensor(record, "sigma", "Pa", output->sigma, output->sigma_normal, error) &&
            add_numbers(record, "tags", output->cloud->tags, error) &&

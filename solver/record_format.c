@@ -4,9 +4,20 @@
 #include <string.h>
 
 const struct record_known record_known[] = {
-    {"F", 9, false},           {"H", 9, false},        {"J", 1, true},        {"P", 9, false},   {"sigma", 9, false},
-    {"displacement", 3, true}, {"momentum", 3, true},  {"pressure", 1, true}, {"tags", 1, true}, {"velocity", 3, true},
-    {"volume", 1, true},       {"von_mises", 1, true}, {NULL, 0, false},
+    {"F", 9, false},
+    {"H", 9, false},
+    {"J", 1, true},
+    {"P", 9, false},
+    {"sigma", 9, false},
+    {"displacement", 3, true},
+    {"momentum", 3, true},
+    {"pressure", 1, true},
+    {"tags", 1, true},
+    {"velocity", 3, true},
+    {"volume", 1, true},
+    {"von_mises", 1, true},
+    {"plastic_strain", 1, false},
+    {NULL, 0, false},
 };
 
 uint8_t record_vtk_type(int cell_width)

@@ -72,6 +72,9 @@ static void all_columns(struct columns *at, const double *total_energy)
     column(at, "strain_energy", energy_unit[dim], &totals->strain, stride);
     column(at, "total_energy", energy_unit[dim], total_energy, 1);
     column(at, "external_work", energy_unit[dim], &totals->external, stride);
+    if (at->history != NULL && at->history->flows) {
+        column(at, "plastic_work", energy_unit[dim], &totals->plastic, stride);
+    }
     probe_columns(at, dim);
 }
 

@@ -163,6 +163,10 @@ static bool build(struct solver_run *run, struct solver_error *error)
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: no integrator \"%s\" or scheme \"%s\"", scene->path,
                            scene->integrator, scene->scheme);
     }
+    if (solver_scene_flows(scene) && run->scheme->dissipated == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "%s: material.yield_stress: the scheme %s knows no plastic flow",
+                           scene->path, run->scheme->name);
+    }
     if (!build_cloud(run, error) || !set_constants(run, error)) {
         return false;
     }

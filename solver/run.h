@@ -29,6 +29,7 @@ struct solver_output {
     const double *sigma_normal; /* [count] its component out of the plane or line [Pa]; NULL in 3D */
     const double *pressure;     /* [count] mean Cauchy stress tr(sigma)/3 [Pa], positive in tension as in the papers */
     const double *von_mises;    /* [count] von Mises equivalent of the Cauchy stress [Pa] */
+    const double *plastic_strain; /* [count] equivalent plastic strain; NULL where nothing is plastic */
 };
 
 /* Conserved quantities at one time; momenta and energies per unit thickness in 2D, per unit area in 1D. */
@@ -37,6 +38,7 @@ struct solver_totals {
     double linear[3];       /* linear momentum [kg m/s] */
     double angular[3];      /* angular momentum about the origin [kg m^2/s] */
     double kinetic, strain; /* [J] */
+    double plastic;         /* work that plastic flow has taken since the start [J]; 0 where nothing is plastic */
     double external;        /* work of tractions and body forces since the start [J] */
 };
 
@@ -44,6 +46,7 @@ struct solver_totals {
 struct solver_history {
     size_t count;
     struct solver_totals *totals; /* [count] */
+    bool flows;                   /* the material flows plastically: totals->plastic tells something */
     size_t probe_count;
     char (*probe_name)[64]; /* [probe_count] */
     double (*probe_X)[3];   /* [probe_count] where the probed particle lies [m] */

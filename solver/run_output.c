@@ -8,7 +8,7 @@
 
 /* The arrays of solver_output within the run's output block; NULL: there is none. */
 struct arrays {
-    double *u, *v, *p, *F, *H, *J, *P, *P_normal, *sigma, *sigma_normal, *pressure, *von_mises;
+    double *u, *v, *p, *F, *H, *J, *P, *P_normal, *sigma, *sigma_normal, *pressure, *von_mises, *plastic_strain;
 };
 
 /* Returns the doubles that the block takes. */
@@ -33,6 +33,7 @@ static size_t lay_out(const struct solver_run *run, struct arrays *at)
         {&at->J, 1},
         {&at->pressure, 1},
         {&at->von_mises, 1},
+        {&at->plastic_strain, solver_scene_flows(run->scene) ? 1 : 0},
     };
     size_t size = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -89,6 +90,9 @@ static void write_point(const struct solver_run *run, const struct arrays *at, s
     if (at->P_normal != NULL) {
         at->P_normal[a] = point.P_normal;
     }
+    if (at->plastic_strain != NULL) {
+        at->plastic_strain[a] = point.plastic_strain;
+    }
 }
 
 bool solver_run_output(struct solver_run *run, struct solver_output *output, struct solver_error *error)
@@ -120,7 +124,8 @@ bool solver_run_output(struct solver_run *run, struct solver_output *output, str
                                      .sigma = at.sigma,
                                      .sigma_normal = at.sigma_normal,
                                      .pressure = at.pressure,
-                                     .von_mises = at.von_mises};
+                                     .von_mises = at.von_mises,
+                                     .plastic_strain = at.plastic_strain};
     return true;
 }
 
@@ -143,6 +148,9 @@ static void add_particle(const struct solver_run *run, size_t a, double V, struc
         totals->kinetic += 0.5 * V * p[i] * p[i] / rho;
     }
     totals->strain += V * run->scheme->energy(run->system, a);
+    if (solver_scene_flows(run->scene)) {
+        totals->plastic += V * run->scheme->dissipated(run->system, a);
+    }
 }
 
 /* Velocities of the bodies' centres of mass. */
@@ -195,6 +203,7 @@ static bool start_history(struct solver_run *run, struct solver_error *error)
     struct solver_history *history = &run->history;
     size_t dim = (size_t)run->cloud->dim;
     history->probe_count = run->scene->probe_count;
+    history->flows = solver_scene_flows(run->scene);
     if (!solver_alloc((void **)&history->probe_name, history->probe_count, sizeof *history->probe_name, "probes",
                       error) ||
         !solver_alloc((void **)&history->probe_X, history->probe_count, sizeof *history->probe_X, "probes", error)) {

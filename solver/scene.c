@@ -1,4 +1,5 @@
 /* Loading a scene: file, run in the sandbox, plain keys, structured parts, and what must hold between keys. */
+#include "solver/material.h"
 #include "solver/scene_internal.h"
 
 #include <errno.h>
@@ -97,6 +98,37 @@ static void check_view(lua_State *L, const struct solver_view *view)
         scene_refuse(L, "view.up: expected a direction that is neither zero nor along view.direction");
 }
 
+/* Constants of plastic flow that belong together. */
+static void check_flow(lua_State *L, const struct solver_scene *scene)
+{
+    const struct solver_hardening *of = &scene->hardening;
+    const struct solver_material_model *model = solver_material_find(scene->material_model);
+    bool saturates = of->law == SOLVER_HARDENING_SATURATION, power = of->law == SOLVER_HARDENING_POWER;
+    if (!solver_scene_flows(scene) && (of->law != 0 || of->modulus > 0))
+        scene_refuse(L, "material.yield_stress: missing, and the scene says how the material hardens; expected number "
+                        "> 0 [Pa]");
+    if (solver_scene_flows(scene) && (model == NULL || model->in[scene->dim - 1]->flow == NULL))
+        scene_refuse(L,
+                     "material.yield_stress: the model %s does not flow plastically; take material.model = "
+                     "\"hencky\"",
+                     scene->material_model);
+    if (saturates && !(of->saturation >= of->yield))
+        scene_refuse(L, "material.saturation: expected number >= yield_stress = %g [Pa], got %g", of->yield,
+                     of->saturation);
+    if (saturates && !(of->rate > 0))
+        scene_refuse(L, "material.saturation_rate: expected number > 0, got %g", of->rate);
+    if (!saturates && (of->saturation > 0 || of->rate > 0))
+        scene_refuse(L, "material.saturation: belongs to material.law = \"saturation\"");
+    if (power && !(of->strain > 0))
+        scene_refuse(L, "material.hardening_strain: expected number > 0, got %g", of->strain);
+    if (power && !(of->exponent > 0))
+        scene_refuse(L, "material.hardening_exponent: expected number in (0, 1], got %g", of->exponent);
+    if (power && of->modulus > 0)
+        scene_refuse(L, "material.hardening: the power law has no H");
+    if (!power && (of->strain > 0 || of->exponent > 0))
+        scene_refuse(L, "material.hardening_strain, hardening_exponent: belong to material.law = \"power\"");
+}
+
 static int read_scene(lua_State *L)
 {
     struct solver_scene *scene = lua_touserdata(L, 1);
@@ -108,6 +140,7 @@ static int read_scene(lua_State *L)
         scene_refuse(L,
                      "material.nu: 0.5 is incompressible, which needs a solver that is not there yet; take nu < 0.5, "
                      "say 0.4999");
+    check_flow(L, scene);
     scene_read_bodies(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)
         if (solver_scene_has(scene, (enum solver_formula)f))

@@ -9,8 +9,10 @@
 #define SOLVER_SCENE_H
 
 #include "solver/error.h"
+#include "solver/hardening.h"
 #include "solver/shape.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -206,6 +208,7 @@ struct solver_scene {
 
     char material_model[SOLVER_NAME];
     double E, nu, rho; /* [Pa], [-], [kg/m^3] */
+    struct solver_hardening hardening;
 
     char scheme[SOLVER_NAME]; /* "upwind", "jst", "ulsph" */
     enum solver_evolved evolved;
@@ -264,6 +267,12 @@ struct solver_scene {
 bool solver_scene_load(const char *path, const char *const *overrides, size_t override_count,
                        struct solver_scene **scene, struct solver_error *error);
 void solver_scene_free(struct solver_scene *scene);
+
+/* Whether its material flows plastically. */
+static inline bool solver_scene_flows(const struct solver_scene *scene)
+{
+    return scene->hardening.yield > 0.0;
+}
 
 /* Layers of particles that hold or move a face (0..5) from beyond it; 0: none. */
 int solver_scene_wall(const struct solver_scene *scene, int face);

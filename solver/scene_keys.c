@@ -49,14 +49,29 @@ X("levels", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing w
 X("perturb", NUMBER, AT(perturb), 0, 0.3, 0, "", "0", "number in [0, 0.3]",                                            \
   "random shift of interior particles, as a fraction of the spacing")                                                  \
 X("seed", SEED, AT(seed), 0, 0, 0, "", "1", "whole number >= 0", "of the random shift")                                \
-X("material.model", WORD, AT(material_model), 0, 0, 0, "linear-elastic neo-hookean neo-hookean-polyconvex", NEEDED,                           \
-  "one of linear-elastic, neo-hookean, neo-hookean-polyconvex", "constitutive model")                                                          \
+X("material.model", WORD, AT(material_model), 0, 0, 0, "linear-elastic neo-hookean neo-hookean-polyconvex hencky", NEEDED,                    \
+  "one of linear-elastic, neo-hookean, neo-hookean-polyconvex, hencky", "constitutive model")                          \
 X("material.E", NUMBER, AT(E), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [Pa]", "Young's modulus")               \
 X("material.nu", NUMBER, AT(nu), -1 + DBL_EPSILON / 2, 0.5, 0, "", NEEDED, "number in (-1, 0.5]", "Poisson's ratio")   \
 X("material.rho", NUMBER, AT(rho), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [kg/m^3]",                          \
   "density in the reference configuration")                                                                            \
 X("material.at", FORMULA, SOLVER_MATERIAL_AT, 0, 0, 0, "", OPTIONAL, "function(X, Y, Z) returning E, nu, rho",            \
   "constants of a composite body, in place of material.E, nu and rho")                                                 \
+X("material.yield_stress", NUMBER, AT(hardening.yield), 0, DBL_MAX, 0, "", "0", "number >= 0 [Pa]",                      \
+  "yield stress (von Mises) of the virgin material; 0: it is elastic")                                                 \
+X("material.law", INDEX, AT(hardening.law), 0, 0, 0, "linear saturation power", "linear",                              \
+  "one of linear, saturation, power",                                                                                  \
+  "yield stress over plastic strain e: Y + H e, that + (Ys - Y)(1 - exp(-d e)), or Y (1 + e/e0)^m")                    \
+X("material.hardening", NUMBER, AT(hardening.modulus), 0, DBL_MAX, 0, "", "0", "number >= 0 [Pa]",                      \
+  "H: rise of the yield stress per plastic strain")                                                                    \
+X("material.saturation", NUMBER, AT(hardening.saturation), 0, DBL_MAX, 0, "", "0", "number >= yield_stress [Pa]",      \
+  "Ys: the yield stress, without H e, that a law of saturation ends at")                                               \
+X("material.saturation_rate", NUMBER, AT(hardening.rate), 0, DBL_MAX, 0, "", "0", "number > 0 with saturation",        \
+  "d: how fast it gets there")                                                                                         \
+X("material.hardening_strain", NUMBER, AT(hardening.strain), 0, DBL_MAX, 0, "", "0", "number > 0 with power",          \
+  "e0 of the power law")                                                                                               \
+X("material.hardening_exponent", NUMBER, AT(hardening.exponent), 0, 1, 0, "", "0", "number in (0, 1] with power",       \
+  "m of the power law")                                                                                                \
 X("scheme", WORD, AT(scheme), 0, 0, 0, "upwind jst ulsph | efg adaptle", "upwind", "one of upwind, jst, ulsph",                    \
   "semi-discrete right-hand side")                                                                                     \
 X("evolved", INDEX, AT(evolved), 0, 0, 0, "pF pFJ pFHJ", "pFHJ", "one of pF, pFJ, pFHJ",                               \

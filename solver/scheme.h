@@ -41,6 +41,7 @@ struct solver_point {
     double J;                /* volume now over volume in the reference configuration */
     double F[9], H[9], P[9]; /* [dim][dim]; not set unless the scheme has a deformation gradient */
     double P_normal;         /* the component of P out of the plane or line [Pa]; the same, below 3D */
+    double plastic_strain;   /* equivalent; where the scene's material flows */
 };
 
 /* A value of a scene's key that belongs to the scheme, for lists. */
@@ -91,6 +92,8 @@ struct solver_scheme {
     void (*look)(const void *system, size_t particle, struct solver_point *point);
     /* Strain energy per unit reference volume [J/m^3]. */
     double (*energy)(const void *system, size_t particle);
+    /* Plastic work per unit reference volume since the start [J/m^3]; NULL: the scheme knows no plastic flow. */
+    double (*dissipated)(const void *system, size_t particle);
 };
 
 /* The table, ends with NULL. */

@@ -19,6 +19,7 @@ static void choose_terms(struct solver_upwind_system *system, const struct solve
     work->evolves_J = scene->evolved != SOLVER_PF;
     work->evolves_H = scene->evolved == SOLVER_PFHJ;
     work->frozen = material->linear;
+    work->hardening = solver_scene_flows(scene) ? &scene->hardening : NULL;
     work->whole_jump = strcmp(scene->volume_flux, "stress") == 0;
     work->reconstruct = strcmp(scene->reconstruction, "none") != 0;
     work->constants = system->body->constants;
@@ -100,6 +101,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     size_t tensor = dim * vector;
     bool pressure = work->evolves_J && !work->whole_jump && system->rates == NULL;
     bool slopes = work->reconstruct && system->rates == NULL;
+    size_t remembered = work->hardening != NULL ? work->material->flow->width : 0;
     const struct solver_field rows[] = {
         {"v", vector, true, &work->v, &work->v_rate, 0},
         {"x", vector, true, &work->x, &work->x_rate, 0},
@@ -113,6 +115,8 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
         {"grad U'(J)", pressure && slopes ? vector : 0, false, &work->pressure_gradient, NULL, 0},
         {"grad P", work->evolves_J && work->whole_jump && slopes ? dim * tensor : 0, false, &work->P_gradient, NULL, 0},
         {"grad v", slopes && work->least_squares != NULL ? tensor : 0, false, &work->v_gradient, NULL, 0},
+        {"plastic flow", remembered, false, &work->flown, NULL, 0},
+        {"plastic flow at the start", remembered, false, &work->flown_before, NULL, 0},
     };
     memcpy(table, rows, sizeof rows);
     return sizeof rows / sizeof *rows;
@@ -169,6 +173,34 @@ bool solver_upwind_start(void *of, struct solver_error *error)
     return true;
 }
 
+/* Plastic flow becomes final once per step: every stage's return map sets out from what was remembered at its start,
+ * so that a stage which overshoots, or a step that is taken back, leaves nothing behind. */
+bool solver_upwind_prepare(void *of, double dt, struct solver_error *error)
+{
+    const struct solver_upwind_system *system = of;
+    const struct solver_upwind *work = &system->work;
+    size_t count = system->body->cloud->count;
+    (void)dt;
+    (void)error;
+    if (work->flown == NULL) {
+        return true;
+    }
+    size_t width = work->material->flow->width;
+#pragma omp parallel for schedule(static)
+    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+        struct solver_piece at = solver_piece_at(piece, count);
+        memcpy(work->flown_before + at.begin * width, work->flown + at.begin * width,
+               (at.end - at.begin) * width * sizeof(double));
+    }
+    return true;
+}
+
+/* What particle a remembers; NULL: nothing is plastic. */
+static const double *memory_of(const struct solver_upwind *work, size_t a)
+{
+    return work->flown != NULL ? work->flown + a * work->material->flow->width : NULL;
+}
+
 bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *error)
 {
     const struct solver_upwind_system *system = of;
@@ -216,7 +248,11 @@ double solver_upwind_largest_step(const void *of)
 #pragma omp parallel for schedule(static) reduction(max : fastest)
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
         struct solver_piece at = solver_piece_at(piece, count);
-        fastest = fmax(fastest, work->material->fastest(work->constants, work->stride, at.begin, at.end, work->F));
+        double here =
+            work->flown != NULL
+                ? work->material->flow->fastest(work->constants, work->stride, at.begin, at.end, work->F, work->flown)
+                : work->material->fastest(work->constants, work->stride, at.begin, at.end, work->F);
+        fastest = fmax(fastest, here);
     }
     return system->body->scene->cfl * system->body->cloud->spacing / fastest;
 }
@@ -296,10 +332,14 @@ void solver_upwind_look(const void *of, size_t a, struct solver_point *point)
     const struct solver_upwind *work = &system->work;
     measures_of(system, a, point);
     rows_of(system, work->P, a, point->P);
+    const struct solver_material_constants *constants = work->constants + a * work->stride;
+    const double *memory = memory_of(work, a);
     point->P_normal = 0.0;
     if (system->body->cloud->dim < 3) {
-        point->P_normal = work->material->stress_normal(work->constants + a * work->stride, point->F, point->J);
+        point->P_normal = memory != NULL ? work->material->flow->stress_normal(constants, point->F, point->J, memory)
+                                         : work->material->stress_normal(constants, point->F, point->J);
     }
+    point->plastic_strain = memory != NULL ? memory[0] : 0.0;
     cauchy(system, point);
 }
 
@@ -308,8 +348,18 @@ double solver_upwind_energy(const void *of, size_t a)
     const struct solver_upwind_system *system = of;
     const struct solver_upwind *work = &system->work;
     struct solver_point point;
+    const struct solver_material_constants *constants = work->constants + a * work->stride;
+    const double *memory = memory_of(work, a);
     measures_of(system, a, &point);
-    return work->material->energy(work->constants + a * work->stride, point.F, point.H, point.J);
+    return memory != NULL ? work->material->flow->energy(constants, point.F, point.J, memory)
+                          : work->material->energy(constants, point.F, point.H, point.J);
+}
+
+double solver_upwind_dissipated(const void *of, size_t a)
+{
+    const struct solver_upwind_system *system = of;
+    const double *memory = memory_of(&system->work, a);
+    return memory != NULL ? solver_hardening_work(system->work.hardening, memory[0]) : 0.0;
 }
 
 static const struct solver_scheme_choice choices[] = {

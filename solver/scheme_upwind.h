@@ -28,6 +28,7 @@ void solver_upwind_destroy(void *of);
 struct solver_geometry solver_upwind_geometry(const void *of);
 size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS]);
 bool solver_upwind_start(void *of, struct solver_error *error);
+bool solver_upwind_prepare(void *of, double dt, struct solver_error *error);
 bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *error);
 void solver_upwind_refresh(void *of, size_t begin, size_t end);
 double solver_upwind_largest_step(const void *of);
@@ -35,6 +36,7 @@ size_t solver_upwind_first_broken(const void *of, size_t begin, size_t end);
 const char *solver_upwind_complaint(const void *of, size_t a);
 void solver_upwind_look(const void *of, size_t a, struct solver_point *point);
 double solver_upwind_energy(const void *of, size_t a);
+double solver_upwind_dissipated(const void *of, size_t a);
 
 /* clang-format off */
 /* Rows of a scheme's choices: the evolved sets. */
@@ -46,9 +48,9 @@ double solver_upwind_energy(const void *of, size_t a);
 
 /* What such schemes have in common, for their initializers. */
 #define SOLVER_UPWIND_SHARED                                                                                           \
-    .deformation = true, .stencil = true, .start = solver_upwind_start, .evaluate = solver_upwind_evaluate,            \
-    .refresh = solver_upwind_refresh, .largest_step = solver_upwind_largest_step,                                      \
+    .deformation = true, .stencil = true, .start = solver_upwind_start, .prepare = solver_upwind_prepare,              \
+    .evaluate = solver_upwind_evaluate, .refresh = solver_upwind_refresh, .largest_step = solver_upwind_largest_step,  \
     .first_broken = solver_upwind_first_broken, .complaint = solver_upwind_complaint, .look = solver_upwind_look,      \
-    .energy = solver_upwind_energy
+    .energy = solver_upwind_energy, .dissipated = solver_upwind_dissipated
 
 #endif

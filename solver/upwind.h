@@ -24,18 +24,21 @@ struct solver_upwind {
     bool frozen;      /* linear kinematics: H = I in the equation of J, normals n = N */
     bool whole_jump;  /* dissipation of J by the jump of the whole stress, as printed in eq. 27 */
     bool reconstruct; /* linear reconstruction (eq. 34); without it the dissipation is of first order */
+    const struct solver_hardening *hardening; /* NULL: nothing is plastic */
 
     /* State; NULL where the scene does not ask for it. The linear momentum p = rho v is evolved as the velocity, which
      * is continuous where materials meet. */
     double *v, *x, *F, *H, *J; /* evolved */
     double *v_rate, *x_rate, *F_rate, *H_rate, *J_rate;
-    double *X;                 /* reference positions [m] */
-    double *P;                 /* stress */
-    double *cofactor;          /* H, or cof F where H is not evolved but the equation of J needs it */
-    double *v_gradient;        /* tensor: least-squares gradient of v; NULL: F_rate serves */
-    double *pressure;          /* [count] U'(J); for the dissipation of J by its jump */
-    double *pressure_gradient; /* vector */
-    double *P_gradient;        /* [count][DIM (derivative)] tensors; for the dissipation of J by the jump of P */
+    double *X;                    /* reference positions [m] */
+    double *P;                    /* stress */
+    double *cofactor;             /* H, or cof F where H is not evolved but the equation of J needs it */
+    double *v_gradient;           /* tensor: least-squares gradient of v; NULL: F_rate serves */
+    double *pressure;             /* [count] U'(J); for the dissipation of J by its jump */
+    double *pressure_gradient;    /* vector */
+    double *P_gradient;           /* [count][DIM (derivative)] tensors; for the dissipation of J by the jump of P */
+    double *flown, *flown_before; /* [count][width] what a plastic material remembers (material.h), at the present F,
+                                     and at the start of the step */
 };
 
 struct solver_upwind_loops {
@@ -45,7 +48,7 @@ struct solver_upwind_loops {
     /* v_rate without tractions and body forces (eq. 38a), H_rate, J_rate (eq. 38c, 38d). Reads the gradients of
      * neighbours: all of them must be there. */
     void (*rates)(const struct solver_upwind *work, size_t begin, size_t end);
-    /* Stress and, where needed, cofactor from the state. */
+    /* Stress and, where needed, cofactor, and what is remembered, from the state. */
     void (*stresses)(const struct solver_upwind *work, size_t begin, size_t end);
     /* First particle in [begin, end) whose state is broken (NaN, or J <= 0), else end. */
     size_t (*first_broken)(const struct solver_upwind *work, size_t begin, size_t end);

@@ -239,7 +239,13 @@ static void stresses(const struct solver_upwind *work, size_t begin, size_t end)
     if (work->pressure != NULL) {
         work->material->volumetric_range(work->constants, work->stride, begin, end, work->J, work->pressure);
     }
-    work->material->stress_range(work->constants, work->stride, begin, end, work->F, work->cofactor, work->J, work->P);
+    if (work->flown != NULL) {
+        work->material->flow->stress_range(work->constants, work->stride, work->hardening, begin, end, work->F,
+                                           work->cofactor, work->J, work->flown_before, work->flown, work->P);
+    } else {
+        work->material->stress_range(work->constants, work->stride, begin, end, work->F, work->cofactor, work->J,
+                                     work->P);
+    }
 }
 
 static size_t first_broken(const struct solver_upwind *work, size_t begin, size_t end)

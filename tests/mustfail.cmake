@@ -105,6 +105,8 @@ assay_mutant(free-traction "p,P" ${quick_sbp2})
 assay_mutant(rk2-weight "p,P" ${quick_sbp2})
 assay_mutant(rk4-weight "p,P" ${quick_sbp4})
 assay_mutant(body-force-late "rate p,rate x,rate P" mms "small waves, 1D")
+assay_mutant(return-map-hardening "P_all" plastic-cube --levels 3 --set threads=1)
+assay_mutant(plastic-memory "P_all" plastic-cube --levels 3 --set threads=1)
 
 assay_unit_mutant(jst-biharmonic-sign solver_jst "its work is the Laplacian's square")
 assay_unit_mutant(ulsph-spin-sign solver_ulsph_gradients "linear velocity")
@@ -127,6 +129,7 @@ assay_unit_mutant(ulsph-spin-short solver_rotation "cells and their stress throu
 assay_unit_mutant(angular-last-stage solver_run_angular "a spinning body over 1000 steps, 2D")
 assay_unit_mutant(angular-inertia-sign solver_run_angular "every integrator, and densities that differ")
 assay_unit_mutant(angular-load-impulse solver_run_angular "loads turn the body")
+assay_unit_mutant(plastic-forgotten solver_run_plastic "energy balance")
 assay_unit_mutant(ulsph-pair-volumes solver_run_momentum "linear momentum over 1000 steps, 2D")
 
 # A mutant whose text is no longer in the source is an error: here, in a source that is broken already.

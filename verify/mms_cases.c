@@ -128,6 +128,14 @@ static void add_projected(struct list *list)
     }
 }
 
+/* Hencky's material is so soft in tension that second-order stencils come to their order late, with errors that are
+ * smaller than those of others: in a line 1.77, 1.90, 2.01, 1.99 in p from 1/32 to 1/512, in the plane 1.33 and 2.10 in
+ * F from 1/16 to 1/64. */
+static bool comes_late(const struct solver_stencil_builder *stencil, const struct solver_material_model *material)
+{
+    return stencil->closed && stencil->boundary < 2 && strcmp(material->name, "hencky") == 0;
+}
+
 /* Everything with everything, in the plane. */
 static void add_plane(struct list *list)
 {
@@ -139,8 +147,9 @@ static void add_plane(struct list *list)
                 if (s->closed && s->boundary < 2) {
                     claim(which, second_order_coarse);
                 }
-                which->level[0] = 16;
-                which->level[1] = 32;
+                bool late = comes_late(s, m);
+                which->level[0] = late ? 24 : 16;
+                which->level[1] = late ? 48 : 32;
             }
         }
     }
@@ -155,8 +164,9 @@ static void add_line(struct list *list)
                 struct upwind of = {s, evolved_sets[eb / (BOUNDARIES - 1)], m->name, 1, eb % (BOUNDARIES - 1)};
                 struct verify_mms_case *which = add_upwind(list, "large strain, 1D", "manufactured", of);
                 which->asked[VERIFY_MMS_OF_H] = 0;
-                which->level[0] = 32;
-                which->level[1] = 64;
+                bool late = comes_late(s, m);
+                which->level[0] = late ? 128 : 32;
+                which->level[1] = late ? 256 : 64;
             }
         }
     }

@@ -13,7 +13,8 @@ static const struct solver_view corner_view = {
 /* What the colour bar calls a field. */
 static const char *label_of(const char *field)
 {
-    static const char *const table[][2] = {{"pressure", "mean stress"}, {"von_mises", "von Mises stress"}};
+    static const char *const table[][2] = {
+        {"pressure", "mean stress"}, {"von_mises", "von Mises stress"}, {"plastic_strain", "plastic strain"}};
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         if (strcmp(field, table[i][0]) == 0) {
             return table[i][1];

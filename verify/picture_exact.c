@@ -43,14 +43,31 @@ static bool exact_value(const char *name, const struct oracle_kind *kind, const 
     return true;
 }
 
+/* The same of the scalars that only some oracles know. */
+static bool exact_extra(const char *name, const struct oracle_kind *kind, const struct oracle *oracle,
+                        const double X[3], double t, double *out)
+{
+    for (size_t i = 0; kind->extra != NULL && kind->extra[i].name != NULL; i++) {
+        if (strcmp(name, kind->extra[i].name) == 0) {
+            double value[ORACLE_EXTRAS];
+            kind->extras(oracle, X, t, value);
+            *out = value[i];
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool make_exact(const struct solver_record *record, struct solver_record_field *field,
                        const struct oracle_kind *kind, const struct oracle *oracle)
 {
     for (size_t a = 0; a < record->count; a++) {
         struct oracle_state state;
         double value[9] = {0};
-        kind->state(oracle, record->X + 3 * a, record->time, &state);
-        if (!exact_value(field->name, kind, &state, value)) {
+        const double *X = record->X + 3 * a;
+        kind->state(oracle, X, record->time, &state);
+        if (!exact_value(field->name, kind, &state, value) &&
+            !exact_extra(field->name, kind, oracle, X, record->time, value)) {
             return false;
         }
         memcpy(field->value + a * (size_t)field->width, value, (size_t)field->width * sizeof *value);

@@ -53,6 +53,11 @@ static bool find_kind(const struct solver_scene *scene, const struct oracle_kind
                            "%s: oracle: \"%s\" is of a body of one material, and the scene has material.at",
                            scene->path, scene->oracle);
     }
+    if (*kind != NULL && verify_is_manufactured(*kind) && solver_scene_flows(scene)) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: oracle: \"%s\" is of an elastic body, and the scene has material.yield_stress",
+                           scene->path, scene->oracle);
+    }
     if (*kind == NULL && verify_manufactured_find(scene->oracle, NULL, 0) != NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT,
                            "%s: oracle: \"%s\" is a whole name; a scene names the motion alone, as in "

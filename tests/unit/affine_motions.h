@@ -75,8 +75,9 @@ static inline size_t affine_open(const struct affine_case *of, size_t dim, size_
     return count;
 }
 
-/* Solves P_k(F) = 0 for the open entries k by Newton's method, damped so that no step turns the body inside out. */
-static inline void affine_release(struct motion *motion, const size_t *open, size_t count)
+/* Solves P_k(F) = 0 for the open entries k by Newton's method, damped so that no step turns the body inside out. False
+ * if it finds no solution: where a material softens as it is stretched, it may run away. */
+static inline bool affine_release(struct motion *motion, const size_t *open, size_t count)
 {
     size_t dim = motion->dim;
     double P[9], A[81], before[9], *F = motion->start;
@@ -94,7 +95,9 @@ static inline void affine_release(struct motion *motion, const size_t *open, siz
                 matrix[i][j] = A[open[i] * dim * dim + open[j]] / modulus;
             }
         }
-        CU_ASSERT_FATAL(solver_small_solve(count, matrix, step));
+        if (!solver_small_solve(count, matrix, step)) {
+            return false;
+        }
         memcpy(before, F, sizeof before);
         for (double damp = 0.2 / fmax(0.2, largest_entry(count, step)); damp > 1e-6; damp *= 0.5) {
             for (size_t i = 0; i < count; i++) {
@@ -105,7 +108,7 @@ static inline void affine_release(struct motion *motion, const size_t *open, siz
             }
         }
     }
-    CU_ASSERT_FATAL(size < 1e-13); /* else what the faces allow was not found */
+    return size < 1e-13 && largest_entry(dim * dim, F) < 4.0;
 }
 
 /* Smallest eigenvalue of the tangent at time t, over rho cp^2: below zero where loads press the body, which may then
@@ -127,8 +130,8 @@ static inline double affine_firmness(const struct motion *motion, double t)
     return least;
 }
 
-/* A motion that fits the case and lasts `duration` [s]; material and constants are set. */
-static inline void affine_draw(const struct affine_case *of, double duration, struct motion *motion)
+/* A motion that fits the case and lasts `duration` [s]; material and constants are set. False if none was found. */
+static inline bool affine_draw(const struct affine_case *of, double duration, struct motion *motion)
 {
     size_t dim = motion->dim, open[9], count = affine_open(of, dim, open);
     double from[9], to[9], R[9], *F = motion->start;
@@ -162,9 +165,7 @@ static inline void affine_draw(const struct affine_case *of, double duration, st
         bool across = affine_has(of, 1, "K"), along = affine_has(of, 1, "S"); /* of the faces across X */
         motion->drift[i] = (across && i > 0) || (along && i == 0) ? 0.0 : uniform(0.3, 0.9) * motion->constants.cp;
     }
-    if (count > 0) {
-        affine_release(motion, open, count);
-    }
+    return count == 0 || affine_release(motion, open, count);
 }
 
 /* The same, and what loads hold is held firmly: where they press it so hard that every unit of round-off may grow fast,
@@ -173,7 +174,9 @@ static inline void affine_make(const struct affine_case *of, double duration, st
 {
     double firmness = -INFINITY;
     for (int round = 0; round < 10000 && firmness < -0.05; round++) {
-        affine_draw(of, duration, motion);
+        if (!affine_draw(of, duration, motion)) {
+            continue;
+        }
         firmness = affine_has(of, motion->dim, "TFR")
                        ? fmin(affine_firmness(motion, 0.0), affine_firmness(motion, duration))
                        : 0.0;

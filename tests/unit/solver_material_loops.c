@@ -44,7 +44,8 @@ static void wave_speeds(const struct sample *sample)
         sample->material->wave_speeds(&sample->constants, F, N, speeds);
         for (size_t k = 0; k < dim; k++) {
             double square = sample->constants.rho * speeds[k] * speeds[k];
-            expect(sample, "wave speeds against the acoustic tensor", fabs(square - values[k]),
+            /* below zero: the material has lost its ellipticity, and the wave stands */
+            expect(sample, "wave speeds against the acoustic tensor", fabs(square - fmax(values[k], 0.0)),
                    1e-13 * (sample->modulus + values[dim - 1]));
             double at_rest = k + 1 == dim ? sample->constants.cp : sample->constants.cs;
             if (i == 0) {

@@ -21,7 +21,9 @@ static struct drift fly(const char *settings)
     return drift;
 }
 
-/* All of a scheme on one kind of cloud; evolved sets, materials and integrators in turn. */
+/* All of a scheme on one kind of cloud; evolved sets and materials in turn. Stencils of fourth order take the
+ * integrator of that order: with two stages at this CFL number they are unstable, whatever the material, and the energy
+ * of such a body is ten times what it was after 300 steps. */
 static void fly_with(const struct solver_scheme *scheme, const struct solver_stencil_builder *builder, size_t dim,
                      bool perturbed)
 {
@@ -36,9 +38,11 @@ static void fly_with(const struct solver_scheme *scheme, const struct solver_ste
     const char *material = scheme->deformation ? models[turn / 3 % materials].name : "linear-elastic";
     (void)snprintf(
         settings, sizeof settings,
-        "dim=%zu scheme=%s stencil=%s n=%d support=%g perturb=%g evolved=%s material.model=%s reconstruction=%s %s",
+        "dim=%zu scheme=%s stencil=%s n=%d support=%g perturb=%g evolved=%s material.model=%s reconstruction=%s "
+        "integrator=%s %s",
         dim, scheme->name, builder->name, fewest(builder, dim), dim == 1 ? 3.0 : 2.1, perturbed ? 0.15 : 0.0,
-        evolved[turn % 3], material, turn % 4 == 3 ? "least-squares" : "stencil", scheme->claims.momentum);
+        evolved[turn % 3], material, turn % 4 == 3 ? "least-squares" : "stencil",
+        builder->boundary >= 2 ? "rk4" : "tvd-rk2", scheme->claims.momentum);
     struct drift drift = fly(settings);
     printf("\n    linear %.1e, angular %.1e  %s", drift.linear, drift.angular, settings);
     expect_below(settings, drift.linear, kept);

@@ -57,7 +57,7 @@ static void bad_keys(void)
         {"nu = 0.3", "nu = -1", 0, "material.nu: expected number in (-1, 0.5], got -1"},
         {"nu = 0.3", "nu = 0.5", 0, "material.nu: 0.5 is incompressible, which needs a solver that is not there yet"},
         {"'neo-hookean'", "'rubber'", 0,
-         "material.model: expected one of linear-elastic, neo-hookean, neo-hookean-polyconvex, got the text"},
+         "material.model: expected one of linear-elastic, neo-hookean, neo-hookean-polyconvex, hencky, got the text"},
         {"material =", "material = 4 local m =", 0, "material: expected a table, got 4"},
         {"t_end = 1", "t_end = nil", 0, ".lua:6: t_end: expected a value, got nothing"},
         {"dim = 2", "dim = 4", 0, "dim: expected 1, 2 or 3, got 4"},

@@ -1,0 +1,388 @@
+/* Hencky's model, quadratic in logarithmic strains, and von Mises plasticity with isotropic hardening upon it
+ * (000_e9ec29e1bde7947d.txt, Algorithm 2):
+ *     W = mu e' : e' + kappa/2 (ln J)^2,   e' = dev ln V_e,   V_e^2 = b_e = F Cp^-1 F^T,
+ *     tau = 2 mu e' + kappa ln J 1,   P = dev(tau) F^-T + kappa ln(J)/J H.
+ * An evolved J and H enter the volumetric part alone, as in the neo-Hookean model. In the algorithm ln J is subtracted
+ * from the strains; here it is their own mean, so that e' is a deviator whatever round-off has done to det Cp.
+ * Principal strains come from b_e - 1, which small strains leave exact: (F - 1) + (F - 1)^T + (F - 1) (F - 1)^T, and
+ * what is remembered of Cp^-1 is its difference from the identity, for the same reason. */
+#include "solver/dim.h"
+#include "solver/dim_spectral.h"
+#include "solver/material.h"
+
+#include <math.h>
+
+enum {
+    WIDTH = DIM == 3   ? 7
+            : DIM == 2 ? 5
+                       : 3, /* of what a particle remembers */
+    NORMAL = WIDTH - 1      /* where the component out of the plane is, below 3D */
+};
+
+/* Where the in-plane components are. */
+#if DIM == 3
+static const int place[3][3] = {{1, 4, 6}, {4, 2, 5}, {6, 5, 3}};
+#elif DIM == 2
+static const int place[2][2] = {{1, 3}, {3, 2}};
+#else
+static const int place[1][1] = {{1}};
+#endif
+
+/* Principal logarithmic elastic strains, those of the plane first, their mean, and the directions in the plane. */
+struct strains {
+    double log[3], mean;
+    vec axis[DIM];
+};
+
+/* A B^T */
+static inline struct tensor times_transposed(struct tensor A, struct tensor B)
+{
+    struct tensor product = {{{0}}};
+    for (int j = 0; j < DIM; j++) {
+        for (int K = 0; K < DIM; K++) {
+            product.column[j] += A.column[K] * B.column[K][j];
+        }
+    }
+    return product;
+}
+
+/* `memory` NULL: nothing has flown. */
+static inline struct strains strains_of(struct tensor F, const double *memory)
+{
+    struct tensor G = F;
+    for (int I = 0; I < DIM; I++) {
+        G.column[I][I] -= 1.0;
+    }
+    struct tensor excess = times_transposed(G, G);
+    struct tensor turned = transpose(G);
+    struct tensor plastic = {{{0}}};
+    for (int I = 0; memory != NULL && I < DIM; I++) {
+        for (int K = 0; K < DIM; K++) {
+            plastic.column[I] += F.column[K] * memory[place[K][I]];
+        }
+    }
+    if (memory != NULL) {
+        plastic = times_transposed(plastic, F);
+    }
+    for (int I = 0; I < DIM; I++) {
+        excess.column[I] += G.column[I] + turned.column[I] + plastic.column[I];
+    }
+    struct spectrum of = spectrum(excess);
+    double normal = memory != NULL ? 0.5 * log1p(memory[NORMAL]) : 0.0;
+    struct strains strains = {.log = {normal, normal, normal}};
+    for (int i = 0; i < DIM; i++) {
+        strains.log[i] = 0.5 * log1p(of.value[i]);
+        strains.axis[i] = of.direction[i];
+    }
+    strains.mean = (strains.log[0] + strains.log[1] + strains.log[2]) / 3.0;
+    return strains;
+}
+
+/* sqrt(3/2 tau' : tau') [Pa] */
+static inline double equivalent(const struct solver_material_constants *material, const struct strains *strains)
+{
+    double square = 0.0;
+    for (int i = 0; i < 3; i++) {
+        square += (strains->log[i] - strains->mean) * (strains->log[i] - strains->mean);
+    }
+    return 2.0 * material->mu * sqrt(1.5 * square);
+}
+
+static inline struct tensor stress_of(const struct solver_material_constants *material, struct tensor F,
+                                      struct tensor H, double J, const struct strains *strains)
+{
+    struct tensor own = cofactor(F);
+    double per_volume = 1.0 / determinant(F);
+    double pressure = material->kappa * log(J) / J;
+    struct tensor P;
+    for (int I = 0; I < DIM; I++) {
+        P.column[I] = pressure * H.column[I];
+        for (int i = 0; i < DIM; i++) { /* F^-T n = cof(F) n / J */
+            double tau = 2.0 * material->mu * (strains->log[i] - strains->mean);
+            P.column[I] += (tau * per_volume * dot(own.column[I], strains->axis[i])) * strains->axis[i];
+        }
+    }
+    return P;
+}
+
+/* F = 1 out of the plane, where the cofactor is det F. */
+static inline double normal_of(const struct solver_material_constants *material, const double *F, double J,
+                               const double *memory)
+{
+    struct tensor at = from_rows(F);
+    struct strains strains = strains_of(at, memory);
+    return 2.0 * material->mu * (strains.log[2] - strains.mean) + material->kappa * log(J) / J * determinant(at);
+}
+
+static inline double energy_of(const struct solver_material_constants *material, const double *F, double J,
+                               const double *memory)
+{
+    struct strains strains = strains_of(from_rows(F), memory);
+    double q = equivalent(material, &strains);
+    double volumetric = log(J);
+    return q * q / (6.0 * material->mu) + 0.5 * material->kappa * volumetric * volumetric;
+}
+
+static double energy(const struct solver_material_constants *material, const double *F, const double *H, double J)
+{
+    (void)H;
+    return energy_of(material, F, J, NULL);
+}
+
+/* Compiled once, so that the stress of a range is the pointwise one to the bit. */
+static __attribute__((noinline)) struct tensor elastic(const struct solver_material_constants *material,
+                                                       struct tensor F, struct tensor H, double J)
+{
+    struct strains strains = strains_of(F, NULL);
+    return stress_of(material, F, H, J, &strains);
+}
+
+static void stress(const struct solver_material_constants *material, const double *F, const double *H, double J,
+                   double *P)
+{
+    to_rows(elastic(material, from_rows(F), from_rows(H), J), P);
+}
+
+static double stress_normal(const struct solver_material_constants *material, const double *F, double J)
+{
+    return normal_of(material, F, J, NULL);
+}
+
+/* d coth d, where d is the difference of two logarithmic strains. */
+static inline double d_coth(double d)
+{
+    return d == 0.0 ? 1.0 : d / tanh(d);
+}
+
+/* The tangent in principal axes, F = sum l_i n_i (x) N_i, e_i = ln l_i, tau_i principal stresses, d = e_i - e_j:
+ *     A_iijj = (dtau_i/de_j - tau_i delta_ij)/(l_i l_j),
+ *     A_ijij = (tau_i - tau_j)/(l_i^2 - l_j^2) = mu d/sinh(d)/(l_i l_j),
+ *     A_ijji = (l_j/l_i tau_i - l_i/l_j tau_j)/(l_i^2 - l_j^2) = (mu d coth(d) - (tau_i + tau_j)/2)/(l_i l_j);
+ * in the last forms nothing cancels where stretches are nearly the same. */
+struct moduli {
+    double along[DIM][DIM], across[DIM][DIM], mixed[DIM][DIM]; /* A_iijj, A_ijij, A_ijji */
+    vec n[DIM], N[DIM];
+};
+
+static struct moduli moduli_of(const struct solver_material_constants *material, struct tensor F)
+{
+    struct strains strains = strains_of(F, NULL);
+    struct moduli moduli;
+    double tau[DIM];
+    for (int i = 0; i < DIM; i++) {
+        tau[i] = 2.0 * material->mu * (strains.log[i] - strains.mean) + 3.0 * material->kappa * strains.mean;
+        moduli.n[i] = strains.axis[i];
+        moduli.N[i] = (vec){0};
+        for (int I = 0; I < DIM; I++) {
+            moduli.N[i][I] = dot(F.column[I], strains.axis[i]) * exp(-strains.log[i]);
+        }
+    }
+    for (int i = 0; i < DIM; i++) {
+        for (int j = 0; j < DIM; j++) {
+            double per_stretches = exp(-strains.log[i] - strains.log[j]);
+            double d = strains.log[i] - strains.log[j];
+            double along = material->kappa - 2.0 / 3.0 * material->mu + (i == j ? 2.0 * material->mu - tau[i] : 0.0);
+            moduli.along[i][j] = along * per_stretches;
+            moduli.across[i][j] = i == j ? 0.0 : material->mu * (d == 0.0 ? 1.0 : d / sinh(d)) * per_stretches;
+            moduli.mixed[i][j] = i == j ? 0.0 : (material->mu * d_coth(d) - 0.5 * (tau[i] + tau[j])) * per_stretches;
+        }
+    }
+    return moduli;
+}
+
+static double tangent_entry(const struct moduli *of, int i, int I, int j, int J)
+{
+    double sum = 0.0;
+    for (int a = 0; a < DIM; a++) {
+        for (int b = 0; b < DIM; b++) {
+            sum += of->along[a][b] * (of->n[a][i] * of->N[a][I]) * (of->n[b][j] * of->N[b][J]) +
+                   of->across[a][b] * (of->n[a][i] * of->N[b][I]) * (of->n[a][j] * of->N[b][J]) +
+                   of->mixed[a][b] * (of->n[a][i] * of->N[b][I]) * (of->n[b][j] * of->N[a][J]);
+        }
+    }
+    return sum;
+}
+
+static void tangent(const struct solver_material_constants *material, const double *F, double *A)
+{
+    struct moduli moduli = moduli_of(material, from_rows(F));
+    for (int row = 0; row < DIM * DIM; row++) {
+        for (int column = 0; column <= row; column++) {
+            double entry = tangent_entry(&moduli, row / DIM, row % DIM, column / DIM, column % DIM);
+            A[row * DIM * DIM + column] = entry;
+            A[column * DIM * DIM + row] = entry;
+        }
+    }
+}
+
+static void wave_speeds(const struct solver_material_constants *material, const double *F, const double *N,
+                        double *speeds)
+{
+    double A[DIM * DIM * DIM * DIM];
+    struct tensor acoustic = {{{0}}};
+    tangent(material, F, A);
+    for (int i = 0; i < DIM; i++) {
+        for (int j = 0; j < DIM; j++) {
+            for (int I = 0; I < DIM; I++) {
+                for (int J = 0; J < DIM; J++) {
+                    acoustic.column[j][i] += A[((i * DIM + I) * DIM + j) * DIM + J] * N[I] * N[J];
+                }
+            }
+        }
+    }
+    struct spectrum of = spectrum(acoustic);
+    for (int k = 0; k < DIM; k++) {
+        double speed = sqrt(fmax(of.value[k], 0.0) / material->rho);
+        int at = k;
+        for (; at > 0 && speeds[at - 1] > speed; at--) {
+            speeds[at] = speeds[at - 1];
+        }
+        speeds[at] = speed;
+    }
+}
+
+/* Along N with w = F^-T N, for a unit vector m, rho c^2 of the elastic response to a change of F is
+ *     lambda (m.w)^2 + 2 sum_i (mu - tau_i) m_i^2 w_i^2 + sum_{i<j} g_ij (m_i w_j + m_j w_i)^2 + sum_i tau_i w_i^2,
+ * g_ij = mu d coth(d) - (tau_i + tau_j)/2 (see moduli_of). With M the largest of mu - tau_i and g_ij, the second and
+ * third term are at most M (|w|^2 + (m.w)^2). */
+static inline double modulus_bound(const struct solver_material_constants *material, const struct strains *strains)
+{
+    double tau[DIM];
+    double most = -INFINITY;
+    double shear = -INFINITY;
+    for (int i = 0; i < DIM; i++) {
+        tau[i] = 2.0 * material->mu * (strains->log[i] - strains->mean) + 3.0 * material->kappa * strains->mean;
+        most = fmax(most, tau[i]);
+        shear = fmax(shear, material->mu - tau[i]);
+        for (int j = 0; j < i; j++) {
+            double coth = d_coth(strains->log[i] - strains->log[j]);
+            shear = fmax(shear, material->mu * coth - 0.5 * (tau[i] + tau[j]));
+        }
+    }
+    double bound = shear + most + fmax(material->kappa - 2.0 / 3.0 * material->mu + shear, 0.0);
+    return fmax(bound, material->mu); /* a step remains where ellipticity is lost */
+}
+
+/* The largest |F^-T N|^2, from strains of F itself. */
+static inline double slowness(const struct strains *strains)
+{
+    double least = strains->log[0];
+    for (int i = 1; i < DIM; i++) {
+        least = fmin(least, strains->log[i]);
+    }
+    return exp(-2.0 * least);
+}
+
+static double fastest(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                      const double *F)
+{
+    double square = 0.0;
+    for (size_t a = begin; a < end; a++) {
+        const struct solver_material_constants *here = material + a * stride;
+        struct strains strains = strains_of(load_tensor(F + a * DIM * LANES), NULL);
+        square = fmax(square, modulus_bound(here, &strains) * slowness(&strains) / here->rho);
+    }
+    return sqrt(square);
+}
+
+static void stress_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                         const double *F, const double *H, const double *J, double *P)
+{
+    for (size_t a = begin; a < end; a++) {
+        struct tensor at = load_tensor(F + a * DIM * LANES);
+        struct tensor cof = H != NULL ? load_tensor(H + a * DIM * LANES) : cofactor(at);
+        double jacobian = J != NULL ? J[a] : determinant(at);
+        store_tensor(P + a * DIM * LANES, elastic(material + a * stride, at, cof, jacobian));
+    }
+}
+
+static void volumetric_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                             const double *J, double *pressure)
+{
+    for (size_t a = begin; a < end; a++) {
+        pressure[a] = material[a * stride].kappa * log(J[a]) / J[a];
+    }
+}
+
+/* --- plastic flow --- */
+
+/* From trial strains to those on the yield surface, which are 1 - `part` of them, and what is remembered with them:
+ * Cp^-1 grows by F^-1 (b_e - b_trial) F^-T = sum l_i^2 (exp(-2 part e'_i) - 1) (F^-1 n_i) (x) (F^-1 n_i). */
+static inline void return_to_surface(struct tensor F, double part, struct strains *strains, double *memory)
+{
+    struct tensor own = cofactor(F);
+    double per_volume = 1.0 / determinant(F);
+    for (int i = 0; i < 3; i++) {
+        double change = -part * (strains->log[i] - strains->mean);
+        double grown = exp(2.0 * strains->log[i]) * expm1(2.0 * change);
+        strains->log[i] += change;
+        if (i >= DIM) {
+            memory[NORMAL] += i == 2 ? grown : 0.0; /* in 1D both lateral directions are one */
+            continue;
+        }
+        for (int I = 0; I < DIM; I++) {
+            double along = grown * per_volume * per_volume * dot(own.column[I], strains->axis[i]);
+            for (int K = 0; K <= I; K++) {
+                memory[place[I][K]] += along * dot(own.column[K], strains->axis[i]);
+            }
+        }
+    }
+}
+
+static void flow_stress_range(const struct solver_material_constants *material, size_t stride,
+                              const struct solver_hardening *hardening, size_t begin, size_t end, const double *F,
+                              const double *H, const double *J, const double *before, double *now, double *P)
+{
+    for (size_t a = begin; a < end; a++) {
+        const struct solver_material_constants *here = material + a * stride;
+        struct tensor at = load_tensor(F + a * DIM * LANES);
+        struct tensor cof = H != NULL ? load_tensor(H + a * DIM * LANES) : cofactor(at);
+        double jacobian = J != NULL ? J[a] : determinant(at);
+        double *memory = now + a * WIDTH;
+        for (int k = 0; k < WIDTH; k++) {
+            memory[k] = before[a * WIDTH + (size_t)k];
+        }
+        struct strains strains = strains_of(at, memory);
+        double q = equivalent(here, &strains);
+        double flow = solver_hardening_flow(hardening, here->mu, q, memory[0]);
+        if (flow > 0.0) {
+            memory[0] += flow;
+            return_to_surface(at, 3.0 * here->mu * flow / q, &strains, memory);
+        }
+        store_tensor(P + a * DIM * LANES, stress_of(here, at, cof, jacobian, &strains));
+    }
+}
+
+static double flow_fastest(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
+                           const double *F, const double *now)
+{
+    double square = 0.0;
+    for (size_t a = begin; a < end; a++) {
+        const struct solver_material_constants *here = material + a * stride;
+        struct tensor at = load_tensor(F + a * DIM * LANES);
+        struct strains whole = strains_of(at, NULL);
+        struct strains strains = strains_of(at, now + a * WIDTH);
+        square = fmax(square, modulus_bound(here, &strains) * slowness(&whole) / here->rho);
+    }
+    return sqrt(square);
+}
+
+static const struct solver_flow plastic_flow = {
+    .width = WIDTH,
+    .stress_range = flow_stress_range,
+    .energy = energy_of,
+    .stress_normal = normal_of,
+    .fastest = flow_fastest,
+};
+
+const struct solver_material DIM_NAME(solver_hencky) = {
+    .flow = &plastic_flow,
+    .energy = energy,
+    .stress = stress,
+    .stress_normal = stress_normal,
+    .tangent = tangent,
+    .wave_speeds = wave_speeds,
+    .stress_range = stress_range,
+    .volumetric_range = volumetric_range,
+    .fastest = fastest,
+};
