@@ -48,6 +48,9 @@ judge_refuses(oracle-wrong-grid "expected X0:X1:N" oracle cable --typical --grid
 judge_refuses(oracle-huge-grid "expected X0:X1:N" oracle swinging-cube --typical --grid 0:1:9999,0:1:9999,0:1:9999 --time 0)
 judge_refuses(oracle-table-of-two-times "one time and one level" oracle cable --typical --grid 0:1:2 --time 0,1)
 judge_refuses(oracle-wrong-ending "ends in .h5 or .csv" oracle cable --typical --grid 0:1:2 --time 0 -o out.txt)
+# The weights of a grid are those of the trapezium rule: 0.75, 1.5, 0.75.
+assay_test(judge-grid-weights LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 0 ",0.75"
+  $<TARGET_FILE:assay> oracle cable --typical --grid 0:3:3 --time 0)
 foreach(command judge oracle)
   assay_test(cli-help-${command} LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 0 "usage: assay ${command}"
     $<TARGET_FILE:assay> ${command} --help)

@@ -23,3 +23,6 @@ assay_test(manufactured-run LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/c
 assay_test(manufactured-by-motion LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 2
   "a scene names the motion alone" $<TARGET_FILE:assay> verify manufactured --set
   oracle.name=manufactured-stretch-neo-hookean-2d)
+# The body is driven by what the scene says, the judge told something else: were the drive to follow it, all would agree.
+assay_test(manufactured-told-wrongly LABELS mms mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 1
+  "FAIL: a gate does not hold" $<TARGET_FILE:assay> verify manufactured --set oracle.amplitude=0.9 --out mms/told)
