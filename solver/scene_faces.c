@@ -101,6 +101,8 @@ static void read_face(lua_State *L, struct solver_scene *scene, const struct sol
     bool valued = kind == SOLVER_TRACTION || is_moved(kind);
     scene->face[face] = (enum solver_face_kind)kind;
     scene->face_until[face] = read_end(L, key->key, given, kind);
+    if (isfinite(scene->face_until[face]) && strcmp(scene->loads_from, "oracle") == 0)
+        scene_refuse(L, "%s.free_after: loads.from: the oracle drives the face for good", key->key);
     read_formula(L, key->key, given, "value", (enum solver_formula)(SOLVER_FACE_X0 + face), kind, valued, true);
     read_formula(L, key->key, given, "traction", (enum solver_formula)(SOLVER_SHEAR_X0 + face), kind,
                  kind == SOLVER_ROLLER, false);

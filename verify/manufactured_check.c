@@ -182,6 +182,19 @@ static void check_stress(const struct check *check, const double at[4], struct d
     }
 }
 
+/* The stress out of the plane or line, by the material in three dimensions. */
+static void check_normal(const struct check *check, const double at[4], struct distance *law)
+{
+    const struct verify_manufactured_body *body = check->body;
+    const struct solver_material *whole = body->of.model->in[2];
+    struct oracle_state state;
+    double H[9], P[9];
+    check->kind->state(check->oracle, at, at[3], &state);
+    double J = oracle_measures(!whole->linear, state.F, H);
+    whole->stress(&body->constants, state.F, H, J, P);
+    compare(law, state.P, P, 9);
+}
+
 /* Whether volumes are as they must be: positive, or kept. */
 static void check_volume(struct check *check)
 {
@@ -309,12 +322,13 @@ size_t verify_manufactured_check(const struct oracle_kind *kind, const struct or
                           .body = (const struct verify_manufactured_body *)oracle,
                           .line = line,
                           .size = size};
-    struct distance law[5] = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
+    struct distance law[6] = {{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}};
     for (size_t i = 0; i < SAMPLES; i++) {
         double at[4];
         sample(&check, i, at);
         check_motion(&check, at, law);
         check_stress(&check, at, &law[3]);
+        check_normal(&check, at, &law[5]);
     }
     double strain = fmin(law[2].size, 1);
     check.noise = DBL_EPSILON * (1 + 1 / strain);
@@ -324,6 +338,7 @@ size_t verify_manufactured_check(const struct oracle_kind *kind, const struct or
     add_distance(&check, "p = rho v", law[1], 4 * DBL_EPSILON);
     add_distance(&check, "F = I + du/dX", law[2], bound);
     add_distance(&check, "P = dW/dF", law[3], 1e-9);
+    add_distance(&check, "P as in three dimensions", law[5], 64 * check.noise);
     add_distance(&check, "rho dv/dt = Div P + f0", law[4], bound);
     check_volume(&check);
     check_power(&check);

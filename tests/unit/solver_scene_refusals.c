@@ -128,6 +128,8 @@ static void bad_parts(void)
          "faces.X0: 'roller' needs traction = function(X, Y, Z, t) returning 2 numbers"},
         {0, "loads = { from = 'oracle' } faces = { X0 = { kind = 'motion', value = function() return 0, 0, 0 end } }",
          0, "faces.X0: loads.from: the oracle gives what the face prescribes, and the scene a value besides"},
+        {0, "loads = { from = 'oracle' } faces = { X0 = { kind = 'motion', free_after = 1 } }", 0,
+         "faces.X0.free_after: loads.from: the oracle drives the face for good"},
         {0, "loads = { from = 'oracle' } body_force = function() return 0, 0, 0 end", 0,
          "loads.from: the oracle gives the body force, and the scene a formula for it besides"},
         {0, "faces = { X0 = { kind = 'clamped', free_after = 1 } }", 0,
