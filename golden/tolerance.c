@@ -145,8 +145,9 @@ static bool ends(const char *name, const char *end, size_t skip)
 static double column_scale(const struct solver_record *record, size_t column)
 {
     const char *name = record->history_name[column];
-    if (starts(name, "linear_momentum")) {
-        return fmax(columns_norm(record, "linear_momentum"), momentum_norm(record));
+    if (starts(name, "linear_momentum") || starts(name, "wall_impulse")) {
+        return fmax(fmax(columns_norm(record, "linear_momentum"), columns_norm(record, "wall_impulse")),
+                    momentum_norm(record));
     }
     if (starts(name, "angular_momentum")) {
         const double reach = max_norm(record->X, 3 * record->count);

@@ -30,11 +30,13 @@ struct bent {
     uint32_t points[3];
 };
 
-/* A whole number of spacings in a length, at least one. */
-static bool count_spacings(const char *what, double length, double spacing, uint32_t *count, struct solver_error *error)
+/* A whole number of spacings in a length, at least one; each may differ from the spacing by a share of `give`. */
+static bool count_spacings(const char *what, double length, double spacing, double give, uint32_t *count,
+                           struct solver_error *error)
 {
     double spacings = length / spacing;
-    if (!(length > 0.0) || !(spacing > 0.0) || !(fabs(spacings - round(spacings)) <= 1e-6) || spacings < 0.5) {
+    double off = fabs(spacings - round(spacings));
+    if (!(length > 0.0) || !(spacing > 0.0) || !(off <= fmax(1e-6, give * spacings)) || spacings < 0.5) {
         return solver_fail(error, SOLVER_BAD_INPUT,
                            "domain: a %s of %g m is %g spacings of %g m; expected a whole number, one or more", what,
                            length, spacings, spacing);
@@ -63,8 +65,8 @@ static bool lay_out(const struct solver_shape *shape, double spacing, struct ben
                                "XYZ"[axis], shape -> centre[axis]);
         }
     }
-    if (!count_spacings("radius", shape->outer, spacing, &bent->shells, error) ||
-        (cylinder && !count_spacings("length", shape->length, spacing, &bent->layers, error))) {
+    if (!count_spacings("radius", shape->outer, spacing, 0.0, &bent->shells, error) ||
+        (cylinder && !count_spacings("length", shape->length, spacing, SOLVER_LAYERS_GIVE, &bent->layers, error))) {
         return false;
     }
     *size = (struct cloud_size){.particles = 1, .cells = 1};

@@ -75,6 +75,9 @@ static void all_columns(struct columns *at, const double *total_energy)
     if (at->history != NULL && at->history->flows) {
         column(at, "plastic_work", energy_unit[dim], &totals->plastic, stride);
     }
+    if (at->history != NULL && at->history->walled) {
+        components(at, "wall_impulse", momentum_unit[dim], totals->wall, stride, 0, dim);
+    }
     probe_columns(at, dim);
 }
 

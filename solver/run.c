@@ -103,7 +103,7 @@ static bool initial_state(struct solver_run *run, struct solver_error *error)
         return false;
     }
     solver_run_refresh(run);
-    return solver_run_check(run, error);
+    return solver_wall_check(&run->wall, &run->body, state, error) && solver_run_check(run, error);
 }
 
 static void find_probes(struct solver_run *run)
@@ -179,10 +179,12 @@ static bool build(struct solver_run *run, struct solver_error *error)
     size_t rows = run->scheme->fields(run->system, table);
     if (!solver_faces_create(&run->body, &geometry, &run->faces, error) ||
         !solver_contact_create(&run->body, geometry.V, &run->contact, error) ||
+        !solver_wall_create(&run->body, &geometry, &run->faces, &run->wall, error) ||
         !solver_projection_create(&run->body, &run->faces, geometry.V, &run->projection, error) ||
         !solver_state_create(&run->state, run->cloud->count, scene->dim, run->integrator, table, rows, error)) {
         return false;
     }
+    run->projection.held = run->projection.held || run->wall.count > 0;
     find_probes(run);
     return initial_state(run, error);
 }
@@ -224,6 +226,7 @@ void solver_run_free(struct solver_run *run)
     solver_state_free(&run->state);
     solver_faces_free(&run->faces);
     solver_contact_free(&run->contact);
+    solver_wall_free(&run->wall);
     solver_projection_free(&run->projection);
     if (run->system != NULL) {
         run->scheme->destroy(run->system);

@@ -40,6 +40,7 @@ struct solver_totals {
     double kinetic, strain; /* [J] */
     double plastic;         /* work that plastic flow has taken since the start [J]; 0 where nothing is plastic */
     double external;        /* work of tractions and body forces since the start [J] */
+    double wall[3];         /* impulse on the rigid wall since the start [N s]; 0 where there is none */
 };
 
 /* Time history: one row per recorded time. */
@@ -47,6 +48,7 @@ struct solver_history {
     size_t count;
     struct solver_totals *totals; /* [count] */
     bool flows;                   /* the material flows plastically: totals->plastic tells something */
+    bool walled;                  /* there is a rigid wall: totals->wall tells something */
     size_t probe_count;
     char (*probe_name)[64]; /* [probe_count] */
     double (*probe_X)[3];   /* [probe_count] where the probed particle lies [m] */

@@ -8,6 +8,7 @@
 #include "solver/run.h"
 #include "solver/scheme.h"
 #include "solver/state.h"
+#include "solver/wall.h"
 
 struct solver_run {
     const struct solver_scene *scene;
@@ -20,6 +21,7 @@ struct solver_run {
     const struct solver_integrator *integrator;
     struct solver_faces faces;
     struct solver_contact contact;
+    struct solver_wall wall;
     struct solver_projection projection;
     struct solver_state state;
     double time, external; /* [s], [J] */

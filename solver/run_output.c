@@ -204,6 +204,7 @@ static bool start_history(struct solver_run *run, struct solver_error *error)
     size_t dim = (size_t)run->cloud->dim;
     history->probe_count = run->scene->probe_count;
     history->flows = solver_scene_flows(run->scene);
+    history->walled = run->wall.count > 0;
     if (!solver_alloc((void **)&history->probe_name, history->probe_count, sizeof *history->probe_name, "probes",
                       error) ||
         !solver_alloc((void **)&history->probe_X, history->probe_count, sizeof *history->probe_X, "probes", error)) {
@@ -226,6 +227,7 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
     size_t lanes = run->state.lanes;
     const double *V = run->scheme->geometry(run->system).V;
     struct solver_totals totals = {.time = run->time, .external = run->external};
+    memcpy(totals.wall, run->wall.impulse, sizeof totals.wall);
     for (size_t a = 0; a < run->shown.count; a++) { /* one order of summation, whatever the threads */
         add_particle(run, a, V[a], &totals);
     }

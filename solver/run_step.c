@@ -165,6 +165,7 @@ static bool stages(struct solver_run *run, double dt, double *work, struct solve
             }
             return false;
         }
+        solver_wall_stop(&run->wall, &run->state, integrator, s);
         *work += stage->weight * dt * power;
     }
     return true;
@@ -177,6 +178,7 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
     if (run->scheme->prepare != NULL && !run->scheme->prepare(run->system, dt, error)) {
         return false;
     }
+    solver_wall_begin(&run->wall, &run->state, dt);
     if (!stages(run, dt, &work, error)) {
         say_when(run, dt, error);
         return false;
@@ -185,6 +187,7 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
     run->step++;
     if (solver_run_check(run, error)) {
         run->external += work;
+        solver_wall_end(&run->wall);
         return true;
     }
     take_back(run);

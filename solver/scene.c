@@ -129,6 +129,24 @@ static void check_flow(lua_State *L, const struct solver_scene *scene)
         scene_refuse(L, "material.hardening_strain, hardening_exponent: belong to material.law = \"power\"");
 }
 
+/* A plane wall has a point and a normal that is one. */
+static void check_rigid_wall(lua_State *L, const struct solver_scene *scene)
+{
+    static const char *const keys[] = {"rigid_wall.point", "rigid_wall.normal"};
+    const double *n = scene->rigid_wall.normal;
+    scene_lua_push(L, "rigid_wall");
+    bool given = !lua_isnil(L, -1);
+    lua_pop(L, 1);
+    for (int i = 0; given && i < 2; i++) {
+        scene_lua_push(L, keys[i]);
+        if (lua_isnil(L, -1))
+            scene_refuse(L, "%s: missing; expected list of dim numbers, for a wall by a point and its normal", keys[i]);
+        lua_pop(L, 1);
+    }
+    if (given && n[0] == 0 && n[1] == 0 && n[2] == 0)
+        scene_refuse(L, "rigid_wall.normal: expected a direction, from the wall to the body, got zeros");
+}
+
 static int read_scene(lua_State *L)
 {
     struct solver_scene *scene = lua_touserdata(L, 1);
@@ -141,6 +159,7 @@ static int read_scene(lua_State *L)
                      "material.nu: 0.5 is incompressible, which needs a solver that is not there yet; take nu < 0.5, "
                      "say 0.4999");
     check_flow(L, scene);
+    check_rigid_wall(L, scene);
     scene_read_bodies(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)
         if (solver_scene_has(scene, (enum solver_formula)f))

@@ -113,6 +113,11 @@ struct solver_jst_terms {
     double kappa2, kappa4; /* of the harmonic and the biharmonic part; 0: none */
 };
 
+/* A rigid plane wall without friction (wall.h); a normal of zeros: none. */
+struct solver_rigid_wall {
+    double point[3], normal[3]; /* [m]; towards the body, of any length */
+};
+
 struct solver_named {
     char name[SOLVER_NAME];
     double value;
@@ -221,6 +226,7 @@ struct solver_scene {
     struct solver_ulsph_terms ulsph;
     int contact_law;         /* enum solver_contact_law */
     double contact_distance; /* [m]; 0: the spacing */
+    struct solver_rigid_wall rigid_wall;
     char integrator[SOLVER_NAME];
     double cfl;
     double t_end;        /* [s] */

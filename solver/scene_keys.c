@@ -31,7 +31,7 @@ X("domain.lower", NUMBERS, AT(lower), 0, 0, 0, "", OPTIONAL, "list of dim number
 X("domain.upper", NUMBERS, AT(upper), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "upper corner of the box")       \
 X("domain.centre", NUMBERS, AT(domain.centre), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "of a round domain")     \
 X("domain.radius", NUMBER, AT(domain.outer), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a round domain")  \
-X("domain.length", NUMBER, AT(domain.length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a cylinder")     \
+X("domain.length", NUMBER, AT(domain.length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a cylinder: spacings, to 2 %")     \
 X("bodies", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                       \
   "list of up to 16 { shape = \"box\", lower = { ... }, upper = { ... } } or { shape = \"ring\", centre = {x, y}, inner = r, outer = R }", \
   "several bodies, in place of domain")                                                                                \
@@ -112,6 +112,10 @@ X("contact.law", INDEX, AT(contact_law), 0, 0, 0, "none printed predicted", "non
   "forces between bodies that stop the approach of particles: the present one, or that at the end of the step")        \
 X("contact.distance", NUMBER, AT(contact_distance), 0, DBL_MAX, 0, "", "0", "number >= 0 [m]",                         \
   "between particles in touch; 0: the spacing")                                                                        \
+X("rigid_wall.point", NUMBERS, AT(rigid_wall.point), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]",                 \
+  "on a plane wall without friction, which the body does not pass")                                                    \
+X("rigid_wall.normal", NUMBERS, AT(rigid_wall.normal), 0, 0, 0, "", OPTIONAL, "list of dim numbers",                   \
+  "of that wall, from it to the body")                                                                                 \
 X("integrator", WORD, AT(integrator), 0, 0, 0, "euler tvd-rk2 ssp-rk3 rk4", "rk4",                     \
   "one of euler, tvd-rk2, ssp-rk3, rk4",                                                                               \
   "time integrator")                                                                                                   \

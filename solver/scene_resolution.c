@@ -16,15 +16,21 @@ static void bytes_text(double bytes, char *out, size_t size)
     snprintf(out, size, "%.3g %s", bytes, unit[i]);
 }
 
-/* Whole number of spacings along a length called `what`. */
-static double whole_spacings(lua_State *L, const struct solver_scene *scene, const char *key, double n,
-                             const char *what, double length)
+/* Whole number of spacings along a length called `what`; they may differ from the spacing by a share of `give`. */
+static double spacings_within(lua_State *L, const struct solver_scene *scene, const char *key, double n,
+                              const char *what, double length, double give)
 {
     double spacing = scene->reference_length / n, spacings = length / spacing;
-    if (!(fabs(spacings - round(spacings)) <= 1e-9 * spacings) || round(spacings) < 1)
+    if (!(fabs(spacings - round(spacings)) <= give * spacings) || round(spacings) < 1)
         scene_refuse(L, "%s = %.15g: %s, %g m, is %.6g spacings of %g m; expected a whole number", key, n, what, length,
                      spacings, spacing);
     return round(spacings);
+}
+
+static double whole_spacings(lua_State *L, const struct solver_scene *scene, const char *key, double n,
+                             const char *what, double length)
+{
+    return spacings_within(L, scene, key, n, what, length, 1e-9);
 }
 
 /* Particles of a box, `body` being its name with a colon, or "". */
@@ -65,7 +71,9 @@ static double round_particles(lua_State *L, const struct solver_scene *scene, co
     double depth = shape->kind == SOLVER_SHAPE_DISC ? 1
                    : shape->kind == SOLVER_SHAPE_BALL
                        ? along
-                       : whole_spacings(L, scene, key, n, "the domain's length", shape->length) + 1;
+                       : spacings_within(L, scene, key, n, "the domain's length", shape->length,
+                                         SOLVER_LAYERS_GIVE) +
+                             1;
     return along * along * depth;
 }
 

@@ -11,6 +11,9 @@ enum solver_shape_kind {
     SOLVER_SHAPE_RING
 };
 
+/* By what share of the spacing the layers of a cylinder may lie nearer or farther apart, so that they fit its length. */
+static const double SOLVER_LAYERS_GIVE = 0.02;
+
 struct solver_shape {
     enum solver_shape_kind kind;
     double lower[3], upper[3]; /* [m] corners of the box, or of the one around another shape */
