@@ -68,12 +68,11 @@ static double round_particles(lua_State *L, const struct solver_scene *scene, co
 {
     const struct solver_shape *shape = &scene->domain;
     double along = 2 * whole_spacings(L, scene, key, n, "the domain's radius", shape->outer) + 1;
-    double depth = shape->kind == SOLVER_SHAPE_DISC ? 1
-                   : shape->kind == SOLVER_SHAPE_BALL
-                       ? along
-                       : spacings_within(L, scene, key, n, "the domain's length", shape->length,
-                                         SOLVER_LAYERS_GIVE) +
-                             1;
+    double depth =
+        shape->kind == SOLVER_SHAPE_DISC ? 1
+        : shape->kind == SOLVER_SHAPE_BALL
+            ? along
+            : spacings_within(L, scene, key, n, "the domain's length", shape->length, SOLVER_LAYERS_GIVE) + 1;
     return along * along * depth;
 }
 

@@ -11,7 +11,8 @@ enum solver_shape_kind {
     SOLVER_SHAPE_RING
 };
 
-/* By what share of the spacing the layers of a cylinder may lie nearer or farther apart, so that they fit its length. */
+/* By what share of the spacing the layers of a cylinder may lie nearer or farther apart, so that they fit its length.
+ */
 static const double SOLVER_LAYERS_GIVE = 0.02;
 
 struct solver_shape {

@@ -123,7 +123,7 @@ static bool check(const struct solver_scene *scene, const struct verify_truth *t
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" is for dim = 1, the scene has dim = %d",
                            OF(scene, figure), measure->name, scene->dim);
     }
-    if (truth->none && (measure->needs_fronts || !measure->none_is_exact)) {
+    if (truth->none && (measure->needs_fronts || !(measure->none_is_exact || measure->expected))) {
         return solver_fail(error, SOLVER_BAD_INPUT,
                            WHERE "the measure \"%s\" is compared with an oracle, and the scene has none",
                            OF(scene, figure), measure->name);
@@ -132,7 +132,7 @@ static bool check(const struct solver_scene *scene, const struct verify_truth *t
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" needs %s", OF(scene, figure),
                            measure->name, truth->kind->fronts == NULL ? "an oracle that has fronts" : "snapshots");
     }
-    if (!measure->none_is_exact && exact_figure(truth, figure->name).unit == NULL) {
+    if (!measure->none_is_exact && !measure->expected && exact_figure(truth, figure->name).unit == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT,
                            WHERE "the oracle \"%s\" has no figure of this name; the report lists those it has",
                            OF(scene, figure), truth->kind->name);
@@ -161,12 +161,16 @@ bool verify_figures_measure(const struct solver_scene *scene, const struct verif
         struct verify_argument argument[VERIFY_ARGUMENTS];
         struct verify_figure *out = &level->figure[i];
         struct oracle_figure exact = exact_figure(truth, scene->figure[i].name);
+        bool of_oracle = !measure->none_is_exact && !measure->expected;
         *out = (struct verify_figure){.exact = measure->none_is_exact ? 0 : exact.value,
-                                      .unit = !measure->none_is_exact ? exact.unit
+                                      .unit = of_oracle               ? exact.unit
                                               : measure->unit != NULL ? measure->unit
                                                                       : "-"};
-        if (!read_arguments(scene, &scene->figure[i], measure, argument, error) ||
-            !measure->measure(&in, argument, &out->measured, error)) {
+        if (!read_arguments(scene, &scene->figure[i], measure, argument, error)) {
+            return false;
+        }
+        out->exact = measure->expected ? argument[0].length : out->exact;
+        if (!measure->measure(&in, argument, &out->measured, error)) {
             return false;
         }
         out->error = out->exact == 0 ? fabs(out->measured) : fabs(out->measured / out->exact - 1);

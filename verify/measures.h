@@ -43,7 +43,8 @@ struct verify_measure {
     } option[VERIFY_ARGUMENTS]; /* ends with VERIFY_NO_OPTION, unless full */
     bool in_1d_only;
     bool none_is_exact; /* the exact value is 0; otherwise the oracle has a figure of the same name */
-    const char *unit;   /* of one whose exact value is 0; NULL: none */
+    bool expected;      /* neither: the scene says by the first option, a length, what is expected */
+    const char *unit;   /* of one that needs no oracle; NULL: none */
     bool needs_fronts;
     /* The figure; NaN where there is nothing to measure. Arguments in the order of `option`. */
     bool (*measure)(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
@@ -72,6 +73,15 @@ bool verify_period(const struct verify_measuring *in, const struct verify_argume
 /* Largest distance [m] of a probe from the line along an axis on which it lay. */
 bool verify_drift(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                   struct solver_error *error);
+
+/* Distance [m] between two probes at the end. */
+bool verify_distance(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                     struct solver_error *error);
+
+/* What of the energy there was at first and of the work of loads neither is there at the end nor was taken by plastic
+ * flow, over what there was: the dissipation of the scheme. */
+bool verify_energy_lost(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                        struct solver_error *error);
 
 /* Largest rise of kinetic and strain energy, less the work of loads, above what it was before, over the most there was.
  */

@@ -259,6 +259,40 @@ static void rise_of_the_energy(void)
     CU_ASSERT(verify_energy_rise(&nothing, NULL, &value, &error) && isnan(value));
 }
 
+/* Two probes that lay 3 m apart along X and have moved to be 5 m apart; of 10 J and 2 J of work, 3 J are there and 4 J
+ * flowed. */
+static void distance_and_loss(void)
+{
+    double X[][3] = {{1, 0, 0}, {4, 0, 0}};
+    double u[] = {9, 9, 9, 9, 9, 9, 0, 1, 0, 0, 1, 4};
+    struct solver_totals totals[] = {{.kinetic = 6, .strain = 4},
+                                     {.kinetic = 2, .strain = 1, .plastic = 4, .external = 2}};
+    const struct solver_history history = {.count = 2, .probe_count = 2, .probe_u = u, .probe_X = X, .totals = totals};
+    const struct solver_history none = {.count = 0};
+    const struct verify_measuring in = {.history = &history}, nothing = {.history = &none};
+    const struct verify_argument argument[] = {{.length = 7}, {.probe = 1}, {.probe = 0}};
+    double value;
+    CU_ASSERT(verify_distance(&in, argument, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 5, 1e-15);
+    CU_ASSERT(verify_distance(&nothing, argument, &value, &error) && isnan(value));
+    CU_ASSERT(verify_energy_lost(&in, NULL, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 0.5, 1e-15);
+    CU_ASSERT(verify_energy_lost(&nothing, NULL, &value, &error) && isnan(value));
+    open_scene("taylor-bar");
+    CU_ASSERT_FATAL(verify_figures_check(scene, &truth, &error));
+    scene->figure_count = 1;
+    scene->figure[0] = (struct solver_figure){.name = "apart", .measure = "distance", .option_count = 3};
+    scene->figure[0].option[0] = (struct solver_option){.name = "expected", .number = {10}, .count = 1};
+    scene->figure[0].option[1] = (struct solver_option){.name = "from", .text = "foot"};
+    scene->figure[0].option[2] = (struct solver_option){.name = "to", .text = "rim"};
+    CU_ASSERT_FATAL(verify_figures_check(scene, &truth, &error));
+    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &history, &level, &error));
+    CU_ASSERT(level.figure[0].exact == 10 && strcmp(level.figure[0].unit, "m") == 0);
+    CU_ASSERT_DOUBLE_EQUAL(level.figure[0].error, 0.5, 1e-15);
+    scene->figure[0].option[2].text[0] = 'R';
+    refused("figures.apart: to: not as it must be; expected the name of a probe");
+}
+
 /* What symmetry alone says needs no oracle; all else does. */
 static void without_an_oracle(void)
 {
@@ -291,6 +325,7 @@ int main(void)
         {"of the exact wave", of_the_exact_wave},
         {"behind is not ahead", behind_is_not_ahead},
         {"refusals", refusals},
+        {"distance and loss", distance_and_loss},
         {"drift of a probe", drift_of_a_probe},
         {"rise of the energy", rise_of_the_energy},
         {"without an oracle", without_an_oracle},

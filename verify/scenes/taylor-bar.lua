@@ -17,6 +17,17 @@ rigid_wall = { point = {0, 0, 0}, normal = {0, 0, 1} }
 scheme, evolved = "upwind", "pFJ"
 stencil, support, integrator, cfl = "closed", 1.6, "tvd-rk2", 0.3
 
+figures = {
+    radius = { measure = "distance", from = "foot", to = "rim", expected = 7.0e-3 }, -- m
+    ["radius y"] = { measure = "distance", from = "foot", to = "rim y", expected = 7.0e-3 }, -- m
+    ["radius diagonal"] = { measure = "distance", from = "foot", to = "diagonal", expected = 7.0e-3 }, -- m
+    length = { measure = "distance", from = "foot", to = "top", expected = 21.4e-3 }, -- m
+    drift = { measure = "drift", probe = "top", across = {3} },
+    ["energy lost"] = { measure = "energy lost" },
+    ["energy rise"] = { measure = "energy rise" },
+}
+gates = { { ["figure radius"] = 1 } }
+
 probes = { { name = "foot", X = {0, 0, 0} }, { name = "rim", X = {R, 0, 0} }, { name = "rim y", X = {0, R, 0} },
            { name = "diagonal", X = {R / math.sqrt(2), R / math.sqrt(2), 0} }, { name = "top", X = {0, 0, L} } }
 
