@@ -158,7 +158,7 @@ bool verify_figures_measure(const struct solver_scene *scene, const struct verif
     const struct verify_measuring in = {.scene = scene, .truth = truth, .level = level, .history = history};
     for (size_t i = 0; i < scene->figure_count; i++) {
         const struct verify_measure *measure = verify_measure_find(scene->figure[i].measure);
-        struct verify_argument argument[VERIFY_ARGUMENTS];
+        struct verify_argument argument[VERIFY_ARGUMENTS] = {{0}};
         struct verify_figure *out = &level->figure[i];
         struct oracle_figure exact = exact_figure(truth, scene->figure[i].name);
         bool of_oracle = !measure->none_is_exact && !measure->expected;
