@@ -9,7 +9,8 @@ static const struct {
 } table[VERIFY_INDICATORS] = {
     [VERIFY_CLUMPING] = {"clumping", ">=", "smallest distance of two particles over the spacing"},
     [VERIFY_CHECKERBOARD] = {"checkerboard", "<=", "departure of the pressure from its neighbours' mean, over itself"},
-    [VERIFY_LINEAR_MOMENTUM] = {"linear momentum", "<=", "drift of the free body, over sqrt(2 mass kinetic energy)"},
+    [VERIFY_LINEAR_MOMENTUM] = {"linear momentum",
+                                "<=", "drift of the free body, with a wall it meets, over sqrt(2 mass kinetic energy)"},
     [VERIFY_ANGULAR_MOMENTUM] = {"angular momentum", "<=", "drift of the free body, over that and its half diagonal"},
     [VERIFY_ENERGY_GAIN] = {"energy gain", "<=", "largest gain beyond what was put in, over that"},
 };
@@ -51,7 +52,11 @@ void verify_indicators_history(const struct solver_history *history, double mass
     for (size_t i = 0; i < history->count; i++) {
         const struct solver_totals *now = &history->totals[i];
         double work = now->external - first->external;
-        linear = fmax(linear, distance(now->linear, first->linear));
+        double both[3]; /* of the body and of the wall that it has met */
+        for (int axis = 0; axis < 3; axis++) {
+            both[axis] = now->linear[axis] + now->wall[axis];
+        }
+        linear = fmax(linear, distance(both, first->linear));
         angular = fmax(angular, distance(now->angular, first->angular));
         kinetic = fmax(kinetic, now->kinetic);
         supply = fmax(supply, before + fabs(work));
@@ -59,7 +64,7 @@ void verify_indicators_history(const struct solver_history *history, double mass
     }
     double scale = sqrt(2 * mass * kinetic);
     value[VERIFY_LINEAR_MOMENTUM] = scale > 0 ? linear / scale : NAN;
-    value[VERIFY_ANGULAR_MOMENTUM] = scale * size > 0 ? angular / (scale * size) : NAN;
+    value[VERIFY_ANGULAR_MOMENTUM] = scale * size > 0 && !history->walled ? angular / (scale * size) : NAN;
     value[VERIFY_ENERGY_GAIN] = supply > 0 ? gain / supply : NAN;
 }
 

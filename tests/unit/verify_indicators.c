@@ -179,6 +179,12 @@ static void drifts(void)
     CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_LINEAR_MOMENTUM], 0.05, 1e-15); /* on the way; in the end it is back */
     CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_ANGULAR_MOMENTUM], 0.02, 1e-15);
     CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_ENERGY_GAIN], 2.0 / 24, 1e-15);
+    struct solver_history walled = {.count = 3, .totals = totals, .walled = true};
+    totals[1].wall[0] = -0.3; /* of 0.3 and 0.4, which a wall has given and nobody knows */
+    verify_indicators_history(&walled, 2, 3, value);
+    CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_LINEAR_MOMENTUM], 0.04, 1e-15);
+    CU_ASSERT(isnan(value[VERIFY_ANGULAR_MOMENTUM])); /* where the wall pushed is not known */
+    totals[1].wall[0] = 0;
     totals[1].external = totals[2].external = 8; /* what was put in is no gain */
     verify_indicators_history(&history, 2, 3, value);
     CU_ASSERT(value[VERIFY_ENERGY_GAIN] == 0);
