@@ -11,6 +11,7 @@ levels = {2, 3}
 
 material = { model = "hencky", E = 117e9, nu = 0.35, rho = 8930, yield_stress = 0.4e9, hardening = 0.1e9 } -- Pa, -, kg/m^3, Pa
 t_end = 80e-6 -- s
+golden = { t_end = 20e-6 } -- s
 
 initial = { velocity = function() return 0, 0, -V0 end }
 rigid_wall = { point = {0, 0, 0}, normal = {0, 0, 1} } -- without friction
