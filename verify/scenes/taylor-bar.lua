@@ -19,7 +19,7 @@ golden = { t_end = 20e-6 } -- s
 initial = { velocity = function() return 0, 0, -V0 end }
 rigid_wall = { point = {0, 0, 0}, normal = {0, 0, 1} } -- without friction
 
--- {p,F}, as in the paper's Table 2. Where J is evolved, a particle on the axis at the foot is turned inside out at n = 3
+-- {p,F}, as in the paper, Table 2. Where J is evolved a particle on the axis at the foot is turned inside out at n = 3
 -- and this CFL number; at 0.3 it is not.
 scheme, evolved = "upwind", "pF"
 stencil, support, integrator, cfl = "closed", 1.6, "tvd-rk2", 0.45
@@ -28,7 +28,7 @@ history = 10000 -- rows: every step
 probes = { { name = "foot", X = {0, 0, 0} }, { name = "rim", X = {R, 0, 0} }, { name = "rim y", X = {0, R, 0} },
            { name = "diagonal", X = {R / math.sqrt(2), R / math.sqrt(2), 0} }, { name = "top", X = {0, 0, L} } }
 
--- Printed in 000_e9ec29e1bde7947d.txt, Table 2, in mm: 6.95 (hexahedra), 6.99 (average nodal pressure), 6.98 (JST), 7.00
+-- Printed in 000_e9ec29e1bde7947d.txt, Table 2, [mm]: 6.95 (hexahedra), 6.99 (average nodal pressure), 6.98 (JST), 7.00
 -- (Petrov-Galerkin, and cell-centred upwind finite volumes), 6.89 (its Upwind-SPH, {p,F}); 6.98 in 004 (JST-SPH). No
 -- length is printed as a number: what it is compared with is ours at n = 4.
 figures = {
