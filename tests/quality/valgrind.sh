@@ -19,6 +19,9 @@ declare -A only=(
   [test_oracles_conformance]="passes its own check"          # the others call the same code, a hundred times
   [test_oracles_thin_plate]="bends under its own inertia"    # another solves the eigenproblem of the body, as above
   [test_solver_affine]="what claims affine motions keeps them, 1D"       # others: more dimensions, hundreds of runs
+  [test_solver_run_angular]="forces have no resultant"       # others: a thousand steps, many times
+  [test_solver_wall]="oblique wall"                          # others: every integrator in every dimension
+  [test_verify_manufactured]="body force"                    # others: the self-checks of all kinds, by quadrature
   [test_solver_rotation]="cells and their stress through a turn, 2D"     # others: more of the same
   [test_oracles_bimaterial_wave]="is the sum over all paths" # the others call it as often as that check does, or more
 )
