@@ -24,9 +24,9 @@ static void displace_waves(const struct oracle_motion_shape *shape, int dim, con
 {
     static const double phase[3] = {0.3, 0.7, 1.1};
     static const double size[3] = {1.0, 0.8, 0.6};
-    for (int i = 0; i < dim; i++) {
+    for (int i = 0; i < dim && i < 3; i++) {
         struct jet wave = swing(shape, t, 0.4 + 0.3 * i);
-        for (int j = 0; j < dim; j++) {
+        for (int j = 0; j < dim && j < 3; j++) {
             struct jet angle = half_waves(shape, X[j], 1.0, phase[j]);
             wave = jet_multiply(wave, i == j ? jet_sin(angle) : jet_cos(angle));
         }

@@ -269,34 +269,42 @@ static bool summarise(const struct suite *suite)
     return failed == 0;
 }
 
+/* Cases chosen, run, told and saved; *pass: every claim holds. */
+static bool run_chosen(struct suite *suite, const struct verify_options *options, bool *pass,
+                       struct solver_error *error)
+{
+    if (options->override_count > 0 || options->level_count > 0) {
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "verify mms: the suite sets keys and levels itself and takes neither --set nor --levels; run one "
+            "of its scenes, for instance assay verify manufactured --set stencil=closed");
+    }
+    if (!verify_mms_cases(&suite->cases, &suite->count, error) ||
+        (options->operand_count > 1 && !choose(suite, options->operand[1], error)) || !find_scenes(suite, error)) {
+        return false;
+    }
+    suite->result = calloc(suite->count, sizeof *suite->result);
+    if (suite->result == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the suite's results");
+    }
+    (void)verify_manufactured_find("", "", 0); /* sets up the table, which is not for several threads at a time */
+    run_suite(suite);
+    *pass = summarise(suite);
+    return save(suite, options, *pass, error);
+}
+
 int verify_command_mms(const struct verify_options *options)
 {
     struct solver_error error = {.code = SOLVER_OK};
     struct suite *suite = calloc(1, sizeof *suite);
-    bool done = suite != NULL || solver_fail(&error, SOLVER_NO_MEMORY, "no memory for the suite");
     bool pass = false;
-    if (done && (options->override_count > 0 || options->level_count > 0)) {
-        done = solver_fail(
-            &error, SOLVER_BAD_INPUT,
-            "verify mms: the suite sets keys and levels itself and takes neither --set nor --levels; run one "
-            "of its scenes, for instance assay verify manufactured --set stencil=closed");
+    if (suite == NULL) {
+        (void)solver_fail(&error, SOLVER_NO_MEMORY, "no memory for the suite");
+        return verify_complain(&error);
     }
-    done = done && verify_mms_cases(&suite->cases, &suite->count, &error) &&
-           (options->operand_count < 2 || choose(suite, options->operand[1], &error)) && find_scenes(suite, &error);
-    if (done) {
-        suite->result = calloc(suite->count, sizeof *suite->result);
-        done = suite->result != NULL || solver_fail(&error, SOLVER_NO_MEMORY, "no memory for the suite's results");
-    }
-    if (done) {
-        (void)verify_manufactured_find("", "", 0); /* sets up the table, which is not for several threads at a time */
-        run_suite(suite);
-        pass = summarise(suite);
-        done = save(suite, options, pass, &error);
-    }
-    if (suite != NULL) {
-        free(suite->cases);
-        free(suite->result);
-    }
+    bool done = run_chosen(suite, options, &pass, &error);
+    free(suite->cases);
+    free(suite->result);
     free(suite);
     if (!done) {
         return verify_complain(&error);

@@ -50,6 +50,11 @@ static double edge(const struct verify_driven *right)
     return right->scene->upper[0] - right->scene->lower[0];
 }
 
+static bool is(int face, int which)
+{
+    return face == which;
+}
+
 /* The formula at another place or time. */
 static void elsewhere(const struct verify_driven *right, enum solver_formula formula, const double X[3], double shift,
                       double t, double value[3])
@@ -93,8 +98,8 @@ SPOIL_FACE(no_traction, true, scale(value, 0))
 SPOIL_FACE(opposite_traction, true, scale(value, -1))
 SPOIL_FACE(larger_traction, true, scale(value, 1.01))
 SPOIL_FACE(inner_normal, face % 2 == 0, scale(value, -1))
-SPOIL_FACE(no_traction_x1, face == 1, scale(value, 0))
-SPOIL_FACE(no_traction_y0, face == 2, scale(value, 0))
+SPOIL_FACE(no_traction_x1, is(face, 1), scale(value, 0))
+SPOIL_FACE(no_traction_y0, is(face, 2), scale(value, 0))
 SPOIL_FACE(no_shear, true, value[1 - face / 2] = 0)
 SPOIL_FACE(no_normal, true, value[face / 2] = 0)
 SPOIL_FACE(swapped_traction, true, swap(value))
@@ -107,8 +112,8 @@ SPOIL_FACE(shifted_traction, face / 2 == 1, elsewhere(right, formula, X, 0.5 / r
 SPOIL_FACE(held, true, scale(value, 0))
 SPOIL_FACE(opposite_velocity, true, scale(value, -1))
 SPOIL_FACE(larger_velocity, true, scale(value, 1.01))
-SPOIL_FACE(held_x0, face == 0, scale(value, 0))
-SPOIL_FACE(held_y1, face == 3, scale(value, 0))
+SPOIL_FACE(held_x0, is(face, 0), scale(value, 0))
+SPOIL_FACE(held_y1, is(face, 3), scale(value, 0))
 SPOIL_FACE(slid, true, value[1 - face / 2] = 0)
 SPOIL_FACE(swapped_velocity, true, swap(value))
 SPOIL_FACE(late_velocity, true, ask(right, formula, X, t - right->step, value))

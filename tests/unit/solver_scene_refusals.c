@@ -147,6 +147,13 @@ static void bad_parts(void)
         {0, "snapshots = {0.5, 0/0}", 0, "snapshots[2]: expected number > 0 [s], got NaN"},
         {0, "snapshots = {0.5, 0.5}", 0, "snapshots[2]: expected increasing times, got 0.5 s after 0.5 s"},
         {0, "snapshots = {0.5, 1}", "t_end=0.9", "snapshots[2]: 1 s lies after t_end = 0.9 s; take a later t_end or"},
+    };
+    CHECK_ALL(bad);
+}
+
+static void bad_lists(void)
+{
+    static const struct bad bad[] = {
         {0, "snapshots = {1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17}", 0, "snapshots: at most 16 entries"},
         {0, "snapshots = { at = 0.5 }", 0, "snapshots: expected a list without gaps and without names"},
         {0, "figures = 3", 0, "figures: expected { [NAME] = { measure = text, OPTION = ..., ... }, ... }, got 3"},
@@ -365,6 +372,7 @@ int main(void)
         {"bad keys", bad_keys},
         {"bad resolution", bad_resolution},
         {"bad parts", bad_parts},
+        {"bad lists", bad_lists},
         {"bad overrides", bad_overrides},
         {"bad formulas", bad_formulas},
         {"hostile scenes", hostile_scenes},
