@@ -8,14 +8,14 @@ assay_test(quality-mustfail LABELS mustfail COMMAND ${quality}/mustfail.sh ${CMA
 
 # Builds of their own, kept between runs. The one with clang serves the analyser, as list of what to look at, and
 # valgrind, which needs a build without AVX-512.
-assay_test(quality-clang LABELS quality TIMEOUT 600 CORES ${cores}
+assay_test(quality-clang LABELS quality TIMEOUT 1800 CORES ${cores}
   COMMAND ${quality}/build.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/clang debug -DCMAKE_C_COMPILER=clang-14)
-assay_test(quality-tidy LABELS quality TIMEOUT 600 CORES ${cores}
+assay_test(quality-tidy LABELS quality TIMEOUT 1800 CORES ${cores}
   COMMAND ${quality}/tidy.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/clang)
-assay_test(quality-valgrind LABELS quality TIMEOUT 600 CORES ${cores}
+assay_test(quality-valgrind LABELS quality TIMEOUT 1800 CORES ${cores}
   COMMAND ${quality}/valgrind.sh ${CMAKE_BINARY_DIR}/clang)
 set_tests_properties(quality-clang PROPERTIES FIXTURES_SETUP clang_build)
 set_tests_properties(quality-tidy quality-valgrind PROPERTIES FIXTURES_REQUIRED clang_build)
 
-assay_test(quality-sanitize LABELS quality TIMEOUT 600 CORES ${cores}
+assay_test(quality-sanitize LABELS quality TIMEOUT 1800 CORES ${cores}
   COMMAND ${quality}/sanitize.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/sanitize)

@@ -6,12 +6,14 @@ set -euo pipefail
 declare -A skipped=(
   [test_oracles_cantilever]="some twenty eigenproblems as test_oracles_conformance solves one: minutes"
   [test_oracles_outside]="the eigenproblems of both cantilevers, to ask where their bodies are: minutes"
+  [test_oracles_mutations_round]="the self-checks of test_oracles_breathing and test_oracles_tube, for each fault: 30 s"
   [test_oracles_mutations_every]="the self-check of test_oracles_conformance, again for each fault: minutes"
   [test_oracles_mutations]="the self-check of test_oracles_conformance, again for each wrong formula: 50 s"
   [test_verify_sample_fuzz]="thousands of files, each of which the sanitizers see read: 20 s"
   [test_render_draw]="most of it is OSMesa, with machine code of its own making: 50 s"
   [test_solver_run_threads]="the runs of test_solver_run, three times each: minutes"
   [test_solver_slab]="the loops of test_solver_run_composite and test_solver_ulsph_states, for thousands of steps: minutes"
+  [test_solver_run_round]="factorised stencils of balls, and runs on them: minutes; test_solver_stencil_round has the rest"
   [test_solver_run_momentum]="a thousand steps of each run of test_solver_run: 90 s"
 )
 # Of these, one test.
@@ -19,6 +21,8 @@ declare -A only=(
   [test_oracles_conformance]="passes its own check"          # the others call the same code, a hundred times
   [test_oracles_thin_plate]="bends under its own inertia"    # another solves the eigenproblem of the body, as above
   [test_solver_affine]="what claims affine motions keeps them, 1D"       # others: more dimensions, hundreds of runs
+  [test_verify_plasticity]="return maps along finite uniaxial cycles are exact" # others: runs through whole cycles
+  [test_solver_run_plastic]="a step taken back"              # others: runs of hundreds of steps
   [test_solver_run_angular]="forces have no resultant"       # others: a thousand steps, many times
   [test_solver_wall]="oblique wall"                          # others: every integrator in every dimension
   [test_verify_manufactured]="body force"                    # others: the self-checks of all kinds, by quadrature
@@ -29,7 +33,7 @@ declare -A only=(
 # memcheck PROGRAM TEST: of the program that test, or all if it is empty.
 memcheck() {
   local name=${1##*/}
-  UNIT_ONLY=$2 timeout 300 valgrind --quiet --error-exitcode=99 --leak-check=full --show-leak-kinds=definite \
+  UNIT_ONLY=$2 timeout 600 valgrind --quiet --error-exitcode=99 --leak-check=full --show-leak-kinds=definite \
     --errors-for-leak-kinds=definite "$1" >"$name.memcheck" 2>&1 && return 0
   printf '%s fails under memcheck, exit code %d:\n' "$name" $?
   tail -n 40 "$name.memcheck"
