@@ -7,7 +7,7 @@
 #include <gsl/gsl_integration.h>
 #include <math.h>
 
-enum { SAMPLES = 24, REACH = 4, POINTS = 20, COMPONENTS = 9 };
+enum { SAMPLES = 24, REACH = 4, POINTS = 14, COMPONENTS = 9 };
 
 /* Of the differences, as a part of L / pi and period / 2 pi. Motions hold waves up to some six times as short, so the
  * truncation error is (6 STEP)^8 / 630. */
