@@ -13,7 +13,8 @@ declare -A skipped=(
   [test_render_draw]="most of it is OSMesa, with machine code of its own making: 50 s"
   [test_solver_run_threads]="the runs of test_solver_run, three times each: minutes"
   [test_solver_slab]="the loops of test_solver_run_composite and test_solver_ulsph_states, for thousands of steps: minutes"
-  [test_solver_run_round]="factorised stencils of balls, and runs on them: minutes; test_solver_stencil_round has the rest"
+  [test_solver_run_round]="factorised stencils of balls, and runs on them: minutes"
+  [test_solver_stencil_round]="factorised stencils of balls: minutes"
   [test_solver_run_momentum]="a thousand steps of each run of test_solver_run: 90 s"
 )
 # Of these, one test.
