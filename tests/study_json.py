@@ -7,11 +7,13 @@ import os
 import subprocess
 import sys
 
-TOP = {"scene", "oracle", "scheme", "stencil", "levels", "rates", "gates", "pass"}
+TOP = {"scene", "oracle", "scheme", "stencil", "levels", "rates", "convergence", "gates", "pass"}
 LEVEL = {"n", "h", "particles", "steps", "seconds", "ns_per_particle_step", "errors", "snapshots", "figures", "indicators"}
 SNAPSHOT = {"t", "errors"}
 INDICATORS = {"clumping", "checkerboard", "linear momentum", "angular momentum", "energy gain"}
 FIGURE = {"measured", "exact", "error"}
+EXTRAPOLATED = {"extrapolated", "uncertainty", "index", "order", "ratio", "state"}
+STATES = {"unmeasured", "equal", "oscillating", "diverging", "unsettled", "one order", "asymptotic"}
 GATE = {"name", "value", "bound", "op", "pass"}
 STATE = {f + e for f in ("p", "P", "P_all", "u", "F", "H", "J", "sigma", "sigma_all", "v", "pressure") for e in ("", "_abs", "_max", "_abs_max", "_l1")}
 NORMS = ("", "_abs", "_max", "_abs_max", "_l1")
@@ -85,6 +87,44 @@ def check_gate(gate, study):
     demand(gate["pass"] is holds, f"gate {gate['name']} says {gate['pass']}")
 
 
+def check_extrapolated(name, figure, levels):
+    """What Richardson's formulas say of the three finest levels, by other arithmetic than the program's."""
+    demand(set(figure) == EXTRAPOLATED and figure["state"] in STATES, f"figure {name} extrapolated: {figure}")
+    (h3, f3), (h2, f2), (h1, f1) = [(level["h"], level["figures"][name]["measured"]) for level in levels[-3:]]
+    numbers = [figure[key] for key in sorted(EXTRAPOLATED - {"state"})]
+    if figure["state"] in ("unmeasured", "equal", "oscillating", "diverging"):
+        demand(all(value is None for value in numbers), f"figure {name}: {figure}")
+        demand(f1 == f2 or (f3 - f2) / (f2 - f1) < math.log(h3 / h2) / math.log(h2 / h1), f"figure {name} closes in")
+        return
+    demand(all(is_number(value) for value in numbers), f"figure {name}: {figure}")
+    fine, coarse = (h2 / h1) ** figure["order"], (h3 / h2) ** figure["order"]
+    demand(math.isclose((f3 - f2) / (f2 - f1), fine * (coarse - 1) / (fine - 1), rel_tol=1e-9), f"order of figure {name}")
+    change = (f1 - f2) / (fine - 1)
+    demand(math.isclose(figure["extrapolated"], f1 + change, rel_tol=1e-9), f"limit of figure {name}")
+    demand(math.isclose(figure["uncertainty"], 1.25 * abs(change), rel_tol=1e-9), f"uncertainty of figure {name}")
+    demand(math.isclose(figure["index"], 1.25 * abs(change / f1), rel_tol=1e-9), f"index of figure {name}")
+    demand(math.isclose(figure["ratio"], abs(f1 / f2), rel_tol=1e-6), f"ratio of figure {name}")
+
+
+def check_convergence(study):
+    convergence, levels = study["convergence"], study["levels"]
+    demand(set(convergence) == {"errors", "figures"}, f"convergence: {sorted(convergence)}")
+    if len(levels) < 3:
+        demand(convergence == {"errors": {}, "figures": {}}, "convergence of two levels")
+        return
+    demand(set(convergence["errors"]) == set(levels[-1]["errors"]), "names of errors that converge")
+    demand(set(convergence["figures"]) == set(levels[-1]["figures"]), "names of figures that converge")
+    for name, error in convergence["errors"].items():
+        demand(set(error) == {"orders", "state"} and error["state"] in STATES, f"convergence of {name}: {error}")
+        orders = [math.log(a["errors"][name] / b["errors"][name]) / math.log(a["h"] / b["h"])
+                  for a, b in zip(levels[-3:], levels[-2:])]
+        demand(all(math.isclose(*pair, abs_tol=1e-9) for pair in zip(error["orders"], orders)), f"orders of {name}")
+        settled = min(orders) > 0 and abs(orders[0] - orders[1]) <= 0.1 * orders[1]
+        demand((error["state"] == "asymptotic") is settled, f"state of {name}: {error}")
+    for name, figure in convergence["figures"].items():
+        check_extrapolated(name, figure, levels)
+
+
 def check(study, code):
     demand(set(study) == TOP, f"keys: {sorted(study)}")
     for key in ("scene", "oracle", "scheme", "stencil"):
@@ -101,6 +141,7 @@ def check(study, code):
     for name, rate in study["rates"].items():
         order = math.log(errors_before[name] / errors[name]) / math.log(coarse["h"] / fine["h"])
         demand(is_number(rate) and math.isclose(rate, order, abs_tol=1e-9), f"rate {name} = {rate}, not {order}")
+    check_convergence(study)
     demand(len(study["gates"]) > 0, "at least one gate")
     for gate in study["gates"]:
         check_gate(gate, study)

@@ -122,7 +122,7 @@ assay_test(json-shape LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_
 assay_test(json-shape-snapshots LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py
   ${assay} test-out/json-snapshots swinging-cube --levels 8,12 --set snapshots={5e-4,1e-3})
 assay_test(json-shape-figures LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py
-  ${assay} test-out/json-figures bimaterial-wave --levels 200,400)
+  ${assay} test-out/json-figures bimaterial-wave --levels 50,100,200)
 assay_test(json-shape-mismatch LABELS gate COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_json.py
   ${assay} test-out/json-mismatch swinging-cube --levels 8,12 --set oracle.U0=5.05e-4)
 

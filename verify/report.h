@@ -23,6 +23,14 @@ void verify_terminal_totals(FILE *file, const struct solver_scene *scene, const 
 /* What they and the particles say of the run, indicator by indicator. */
 void verify_terminal_indicators(FILE *file, const double value[VERIFY_INDICATORS]);
 
+/* Orders of the last two pairs of levels and figures extrapolated (grid_convergence.h), where there are three levels;
+ * in JSON as the member "convergence", empty with fewer. */
+void verify_terminal_convergence(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
+void verify_terminal_extrapolation(FILE *file, const struct verify_study *study);
+void verify_html_convergence(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count);
+void verify_html_extrapolation(FILE *file, const struct verify_study *study);
+void verify_json_convergence(FILE *file, const struct verify_study *study);
+
 /* JSON, in the one shape that --json always has; numbers that are not finite are null. Where no gate holds for the
  * configuration "pass" is null: nothing was judged. */
 void verify_json(FILE *file, const struct verify_study *study);

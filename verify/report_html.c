@@ -208,8 +208,10 @@ static bool results(FILE *file, const struct verify_study *study, const size_t *
                     struct solver_error *error)
 {
     levels(file, study, shown, shown_count);
+    verify_html_convergence(file, study, shown, shown_count);
     verify_html_gates(file, &study->gates);
     figures(file, study);
+    verify_html_extrapolation(file, study);
     if (!verify_plot_profiles(file, study, error)) {
         return false;
     }

@@ -109,5 +109,6 @@ void verify_json(FILE *file, const struct verify_study *study)
         level_object(file, study->scene, &study->level[i]);
     }
     rates(file, study);
+    verify_json_convergence(file, study);
     verify_json_verdict(file, study->truth, &study->gates);
 }

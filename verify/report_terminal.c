@@ -225,8 +225,10 @@ static void print_gates(FILE *file, const struct verify_study *study)
 void verify_terminal_end(FILE *file, const struct verify_study *study, const size_t *shown, size_t shown_count)
 {
     print_orders(file, study, shown, shown_count);
+    verify_terminal_convergence(file, study, shown, shown_count);
     print_snapshots(file, study, shown, shown_count);
     print_figures(file, study);
+    verify_terminal_extrapolation(file, study);
     print_facts(file, study);
     verify_terminal_indicators(file, study->level[study->level_count - 1].indicator);
     print_gates(file, study);
