@@ -178,6 +178,7 @@ static int read_scene(lua_State *L)
     scene_read_published(L, scene);
     scene_read_gates(L, scene);
     scene_read_beside(L, scene);
+    scene_read_trade(L, scene);
     scene_globals_freeze(L);
     return 0;
 }

@@ -27,6 +27,7 @@ enum {
     SOLVER_GATES = 32,
     SOLVER_NAMED = 16,
     SOLVER_ROWS = 16,
+    SOLVER_VARIANTS = 8,
     SOLVER_FACES = 7,
     SOLVER_BODIES = 16
 };
@@ -135,6 +136,12 @@ struct solver_settings {
     size_t count;
     char key[SOLVER_NAMED][SOLVER_NAME];
     char text[SOLVER_NAMED][SOLVER_NAME];
+};
+
+/* The same problem set up another way (less of it by symmetry, for instance), as a study of costs may vary it. */
+struct solver_variant {
+    char name[SOLVER_NAME];
+    struct solver_settings settings;
 };
 
 /* One entry of `gates`: bounds that hold where every key under `when` has the given value in this run.
@@ -257,6 +264,8 @@ struct solver_scene {
     size_t gate_count;
     struct solver_gate_rule gate[SOLVER_GATES];
     struct solver_settings beside; /* what another configuration overrides, beside which this one is looked at */
+    size_t variant_count;
+    struct solver_variant variant[SOLVER_VARIANTS]; /* of the key `trade`, ordered by name */
     bool has_view;
     struct solver_view view;
 
@@ -302,6 +311,9 @@ void solver_scene_drive_from(struct solver_scene *scene, solver_drive *drive, vo
 bool solver_scene_number(const struct solver_scene *scene, const char *path, double *value);
 /* The value of a plain key as `--set` would spell it ("closed", "0.3"): for gate conditions and reports. */
 bool solver_scene_text(const struct solver_scene *scene, const char *path, char *out, size_t size);
+
+/* The words that a plain key can have as its value, in the order of their table; none if it takes no words. */
+size_t solver_scene_words(const char *key, char (*word)[SOLVER_NAME], size_t room);
 
 /* The keys every scene understands, for `assay list`; ends with a NULL key. */
 struct solver_scene_key {

@@ -146,6 +146,7 @@ void scene_read_oracle(lua_State *L, struct solver_scene *scene);
 void scene_read_published(lua_State *L, struct solver_scene *scene);
 void scene_read_gates(lua_State *L, struct solver_scene *scene);
 void scene_read_beside(lua_State *L, struct solver_scene *scene);
+void scene_read_trade(lua_State *L, struct solver_scene *scene);
 /* After t_end is known. */
 void scene_read_snapshots(lua_State *L, struct solver_scene *scene);
 void scene_read_figures(lua_State *L, struct solver_scene *scene);

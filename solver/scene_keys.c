@@ -164,6 +164,8 @@ X("gates", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 32 { when = { KE
   "largest errors and, as [\"rate NAME\"], smallest observed orders; [\"figure NAME\"] for those of figures, [\"indicator NAME\"]")                                                  \
 X("beside", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ KEY = value, ... }",                                              \
   "another configuration of the same scene, whose probes a study shows and compares with this one's")                   \
+X("trade", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ [NAME] = { KEY = value, ... }, ... }",                                  \
+  "other ways to set the same problem up, less of it by symmetry for instance, which assay trade varies")              \
 X("view.field", TEXT, AT(view.field), 0, 0, SOLVER_NAME, "", NEEDED, "name of a scalar of the record",                 \
   "what the picture shows")                                                                                            \
 X("view.range", NUMBERS, AT(view.range), 0, 0, 2, "", NEEDED, "list of 2 numbers, increasing", "colour range")         \
@@ -291,6 +293,19 @@ void scene_word_at(const char *words, int place, char *out, size_t size)
     for (; place > 0; place--)
         words = strchr(words, ' ') + 1;
     snprintf(out, size, "%.*s", (int)strcspn(words, " "), words);
+}
+
+size_t solver_scene_words(const char *key, char (*word)[SOLVER_NAME], size_t room)
+{
+    int k = scene_key_find(key);
+    const char *words = k < 0 ? "" : rules[k].words;
+    size_t count = 0;
+    while (*words && *words != '|' && count < room) { /* those promised for later come last */
+        scene_word_at(words, 0, word[count++], SOLVER_NAME);
+        words += strcspn(words, " ");
+        words += strspn(words, " ");
+    }
+    return count;
 }
 
 void scene_number_text(double value, char *out, size_t size)

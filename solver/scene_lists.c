@@ -1,4 +1,4 @@
-/* Reads the structured parts of a scene: probes, oracle, published figures, gates. */
+/* Reads the structured parts of a scene: probes, oracle, published figures, gates, other configurations. */
 #include "solver/scene_internal.h"
 
 #include <float.h>
@@ -284,6 +284,52 @@ void scene_read_beside(lua_State *L, struct solver_scene *scene)
                     scene_refuse(L, "beside.%s: both configurations have the same %s", same[j], same[j]);
         if (beside->count > 0 && scene->probe_count == 0)
             scene_refuse(L, "beside: probes are what is compared, and the scene has none");
+    }
+    lua_pop(L, 1);
+}
+
+/* --- trade --- */
+
+/* Names stand in tables and files: no control characters. */
+static void read_variant_name(lua_State *L, char name[SOLVER_NAME])
+{
+    if (lua_type(L, -2) != LUA_TSTRING)
+        scene_refuse_value(L, "trade", "names as keys", -2);
+    const char *text = lua_tostring(L, -2);
+    bool plain = *text && strlen(text) < SOLVER_NAME && strlen(text) == lua_rawlen(L, -2);
+    for (const char *c = text; plain && *c; c++)
+        plain = (unsigned char)*c >= 0x20 && *c != 0x7F;
+    if (!plain)
+        scene_refuse(L, "trade: expected names of 1 to %d bytes without control characters", SOLVER_NAME - 1);
+    snprintf(name, SOLVER_NAME, "%s", text);
+}
+
+static int compare_variants(const void *a, const void *b)
+{
+    return strcmp(((const struct solver_variant *)a)->name, ((const struct solver_variant *)b)->name);
+}
+
+void scene_read_trade(lua_State *L, struct solver_scene *scene)
+{
+    static const char *const same[] = {"dim", "n", "levels"};
+    if (scene_push_table(L, "trade", "{ [NAME] = { KEY = value, ... }, ... }")) {
+        for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1)) {
+            char path[2 * SOLVER_NAME];
+            if (scene->variant_count == SOLVER_VARIANTS)
+                scene_refuse(L, "trade: at most %d entries are possible", SOLVER_VARIANTS);
+            struct solver_variant *variant = &scene->variant[scene->variant_count++];
+            struct solver_settings *settings = &variant->settings;
+            read_variant_name(L, variant->name);
+            snprintf(path, sizeof path, "trade.%s", variant->name);
+            read_settings(L, scene, path, &settings->count, settings->key, settings->text);
+            if (settings->count == 0)
+                scene_refuse(L, "%s: expected at least one KEY = value", path);
+            for (size_t i = 0; i < settings->count; i++)
+                for (size_t j = 0; j < sizeof same / sizeof *same; j++)
+                    if (!strcmp(settings->key[i], same[j]))
+                        scene_refuse(L, "%s.%s: the study varies it, or it is another problem", path, same[j]);
+        }
+        qsort(scene->variant, scene->variant_count, sizeof *scene->variant, compare_variants);
     }
     lua_pop(L, 1);
 }

@@ -1,11 +1,15 @@
 #include "verify/commands.h"
+#include "verify/figures.h"
 #include "verify/find.h"
 #include "verify/picture.h"
 #include "verify/report.h"
 #include "verify/simulate.h"
+#include "verify/terminal.h"
+#include "verify/trade_pick.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 static void print_facts(const struct solver_scene *scene, const struct solver_facts *facts)
 {
@@ -53,12 +57,14 @@ static bool judge(const struct solver_scene *scene, struct solver_run *run, cons
     return true;
 }
 
-static bool run_scene(struct solver_scene *scene, const struct verify_options *options, struct solver_error *error)
+/* `pick`: NULL, or what the configuration was picked by; its gates are then judged. */
+static bool run_scene(struct solver_scene *scene, const struct verify_options *options, struct verify_pick *pick,
+                      struct solver_error *error)
 {
     char folder[VERIFY_PATH];
     struct solver_run *run = NULL;
     if (!verify_out_folder(options, scene->name, folder, error) ||
-        !verify_simulate(scene, folder, options->line, NULL, NULL, &run, error)) {
+        !verify_simulate(scene, folder, options->line, pick != NULL ? verify_pick_take : NULL, pick, &run, error)) {
         return false;
     }
     const struct solver_facts facts = solver_run_facts(run);
@@ -67,19 +73,50 @@ static bool run_scene(struct solver_scene *scene, const struct verify_options *o
     if (history->count > 0) {
         verify_terminal_totals(stdout, scene, &history->totals[0], &history->totals[history->count - 1]);
     }
-    bool kept = judge(scene, run, &facts, error) && keep(scene, run, folder, options->line, error);
+    bool kept = judge(scene, run, &facts, error) && keep(scene, run, folder, options->line, error) &&
+                (pick == NULL || verify_pick_judge(pick, scene, run, error));
     solver_run_free(run);
     return kept;
+}
+
+/* The scene as the study says that it reaches the error; its oracle judges. */
+static bool run_picked(const struct solver_scene *scene, const struct verify_options *options, struct verify_pick *pick,
+                       bool *passed, struct solver_error *error)
+{
+    struct solver_scene *picked = NULL;
+    bool done = verify_pick_open(options, scene, pick, error) &&
+                verify_scene_open(&pick->options, pick->run.n, &picked, error) &&
+                verify_truth_create(picked, &pick->truth, error) && verify_figures_check(picked, &pick->truth, error) &&
+                (pick->truth.proven ||
+                 solver_fail(error, SOLVER_BAD_INPUT, "%s: the oracle does not prove itself; assay verify says where",
+                             scene->path)) &&
+                run_scene(picked, options, pick, error);
+    if (done) {
+        verify_print_gates(stdout, &pick->gates);
+        (void)printf("%s\n", pick->gates.pass
+                                 ? "PASS: the error is what was asked for, and what the study says"
+                                 : "FAIL: the study does not hold for this run; make another: assay trade");
+    }
+    *passed = pick->gates.pass;
+    verify_pick_free(pick);
+    solver_scene_free(picked);
+    return done;
 }
 
 int verify_command_run(const struct verify_options *options)
 {
     struct solver_error error = {.code = SOLVER_OK};
     struct solver_scene *scene = NULL;
-    if (!verify_scene_open(options, 0, &scene, &error)) {
-        return verify_complain(&error);
+    struct verify_pick *pick = calloc(1, sizeof *pick);
+    bool passed = true;
+    bool done = pick != NULL || solver_fail(&error, SOLVER_NO_MEMORY, "no memory for a run");
+    if (done && options->study != NULL && options->error == NULL) {
+        done = solver_fail(&error, SOLVER_BAD_INPUT, "--study says nothing without --error");
     }
-    bool done = run_scene(scene, options, &error);
+    done = done && verify_scene_open(options, 0, &scene, &error) &&
+           (options->error != NULL ? run_picked(scene, options, pick, &passed, &error)
+                                   : run_scene(scene, options, NULL, &error));
     solver_scene_free(scene);
-    return done ? VERIFY_PASSED : verify_complain(&error);
+    free(pick);
+    return !done ? verify_complain(&error) : passed ? VERIFY_PASSED : VERIFY_FAILED;
 }

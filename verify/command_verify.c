@@ -24,18 +24,6 @@ struct work {
     size_t shown[VERIFY_ERRORS];
 };
 
-static bool refuse_n(const struct verify_options *options, struct solver_error *error)
-{
-    for (size_t i = 0; i < options->override_count; i++) {
-        if (strncmp(options->override[i], "n=", 2) == 0 || strncmp(options->override[i], "levels=", 7) == 0) {
-            return solver_fail(error, SOLVER_BAD_INPUT,
-                               "--set %s: a study runs several values of n; say which by --levels 4,8,16",
-                               options->override[i]);
-        }
-    }
-    return true;
-}
-
 static bool choose_levels(struct work *work, struct solver_error *error)
 {
     bool given = work->options->level_count > 0;
@@ -78,15 +66,11 @@ static bool take(void *context, struct solver_run *run, struct solver_error *err
 /* Errors, figures and indicators of a finished run. */
 static bool measure(struct work *work, struct solver_run *run, struct solver_error *error)
 {
-    const struct verify_truth *truth = &work->truth;
     const struct solver_history *history = solver_run_history(run);
     struct verify_level *level = &work->level_now;
     struct solver_output output;
-    level->facts = solver_run_facts(run);
     return solver_run_output(run, &output, error) &&
-           verify_norms_state(&output, truth->kind, truth->oracle, level->error, error) &&
-           verify_norms_probes(history, truth->kind, truth->oracle, work->scene->probe_scale, level->error, error) &&
-           verify_figures_measure(work->scene, truth, history, level, error) &&
+           verify_level_measure(level, work->scene, run, &output, &work->truth, error) &&
            verify_beside_measure(&work->beside, history, level->error, error) &&
            verify_indicators_measure(work->scene, &output, history, &level->facts, level->indicator, error);
 }
@@ -209,7 +193,7 @@ static bool choose_shown(struct work *work, struct solver_error *error)
 /* The whole study; *passed says whether nothing it judged failed. */
 static bool study(struct work *work, bool *passed, struct solver_error *error)
 {
-    if (!refuse_n(work->options, error) || !open_level(work, 0, error) || !choose_levels(work, error) ||
+    if (!verify_refuse_n(work->options, error) || !open_level(work, 0, error) || !choose_levels(work, error) ||
         !open_all_levels(work, error) || !verify_truth_open(work->scene, &work->truth, error) ||
         !verify_beside_open(work->options, work->scene, &work->beside, error)) {
         return false;

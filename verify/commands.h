@@ -10,6 +10,7 @@ int verify_command_verify(const struct verify_options *options);
 int verify_command_mutations(const struct verify_options *options);
 /* `verify mms`: see mms.h. */
 int verify_command_mms(const struct verify_options *options);
+int verify_command_trade(const struct verify_options *options);
 int verify_command_render(const struct verify_options *options);
 int verify_command_golden(const struct verify_options *options);
 int verify_command_compare(const struct verify_options *options);

@@ -50,6 +50,37 @@
     "Exit code: 0 all gates pass, or none was given, which is then said; 1 a gate or the oracle's self-check\n"        \
     "fails; 2 the command line or a file is wrong."
 
+#define VERIFY_TRADE_HELP                                                                                              \
+    "Runs a scene in many configurations and compares each with the exact solution, which first has to prove\n"        \
+    "itself: error over wall time, over right-hand sides times pairs, and over bytes moved. Prints what no\n"          \
+    "other configuration beats, and which to choose for an error. Writes trade.tsv, from which assay run\n"            \
+    "SCENE --error takes its choice, trade.json, trade.html and the charts as trade.svg.\n"                            \
+    "\n"                                                                                                               \
+    "  assay trade swinging-cube\n"                                                                                    \
+    "  assay trade swinging-cube --set scheme=upwind --vary cfl=0.3,0.6,0.9 --levels 8,12,16 --budget 60\n"            \
+    "  assay run swinging-cube --error p=1e-3\n"                                                                       \
+    "\n"                                                                                                               \
+    "AXES  Every combination of scheme, stencil, support, evolved, integrator, cfl, precision and the ways that\n"     \
+    "  the scene's key trade offers, at the first level, those nearest to the scene's own first. --set fixes a\n"      \
+    "  key; --vary names the values to try, of these keys or of jst.*, ulsph.*, reconstruction, volume_flux,\n"        \
+    "  angular_momentum, perturb and lattice. A key that changes nothing for a scheme or stencil is left out.\n"       \
+    "\n"                                                                                                               \
+    "LEVELS  From one to the next go, of each scheme, stencil, integrator, precision and way, those that no other\n"   \
+    "  of them beats in error, pairs and bytes, and the scene's own. The others are listed as beaten.\n"               \
+    "\n"                                                                                                               \
+    "THREADS  One, unless the scene or --set says how many; no digit depends on it. What no other beats in time,\n"    \
+    "  or by a third at most, is timed again, and with as many threads as there are cores and the work is\n"     \
+    "  worth.\n"                                                                                                       \
+    "\n"                                                                                                               \
+    "BUDGET  A level may take half of the time left, the last all but a fifth, which is kept for repeats. What\n"      \
+    "  was not run for want of time is listed, as is what was refused or broke down, with the reason. Errors,\n"       \
+    "  pairs and bytes are the same in every study that was not cut; times are the machine's.\n"                       \
+    "\n"                                                                                                               \
+    "ERROR  The fronts are of one error, by default the first that assay verify shows; --error names another, as\n"    \
+    "  --error u or --error \"figure period\".\n"                                                                      \
+    "\n"                                                                                                               \
+    "What is measured is this scene, up to its t_end: a configuration that is unstable may not show it by then."
+
 #define VERIFY_ORACLE_HELP                                                                                             \
     "Evaluates an oracle, once it has proved itself, at the points of a file of any format that assay judge\n"         \
     "reads, or on a grid. Places outside the body are refused, or left out with --inside. Writes FILE.h5 or\n"         \

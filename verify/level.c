@@ -1,5 +1,7 @@
 #include "verify/level.h"
 
+#include "verify/figures.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -96,6 +98,17 @@ bool verify_level_snapshot(struct verify_level *level, struct solver_run *run, c
     }
     verify_norms_worst(level->snapshot_count - 1, taken->error, level->error);
     return true;
+}
+
+bool verify_level_measure(struct verify_level *level, const struct solver_scene *scene, struct solver_run *run,
+                          const struct solver_output *output, const struct verify_truth *truth,
+                          struct solver_error *error)
+{
+    const struct solver_history *history = solver_run_history(run);
+    level->facts = solver_run_facts(run);
+    return verify_norms_state(output, truth->kind, truth->oracle, level->error, error) &&
+           verify_norms_probes(history, truth->kind, truth->oracle, scene->probe_scale, level->error, error) &&
+           verify_figures_measure(scene, truth, history, level, error);
 }
 
 void verify_level_free(struct verify_level *level)

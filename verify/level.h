@@ -6,6 +6,7 @@
 #include "verify/indicators.h"
 #include "verify/norms.h"
 #include "verify/snapshot.h"
+#include "verify/truth.h"
 
 /* A number measured in the run, beside the oracle's. */
 struct verify_figure {
@@ -46,6 +47,10 @@ bool verify_level_value(const struct solver_scene *scene, const struct verify_le
  * all snapshots are there. */
 bool verify_level_snapshot(struct verify_level *level, struct solver_run *run, const struct oracle_kind *kind,
                            const struct oracle *oracle, struct solver_error *error);
+/* Errors and figures of a finished run; snapshots were taken on the way. */
+bool verify_level_measure(struct verify_level *level, const struct solver_scene *scene, struct solver_run *run,
+                          const struct solver_output *output, const struct verify_truth *truth,
+                          struct solver_error *error);
 void verify_level_free(struct verify_level *level);
 
 #endif

@@ -18,11 +18,17 @@ static const struct verify_command commands[] = {
     {.name = "run",
      .operands = "SCENE",
      .summary = "simulate: record, picture, conserved quantities",
-     .help = "Simulates a scene: one of `assay list scenes`, or the path of a .lua file. Writes SCENE.vtkhdf, which\n"
-             "ParaView opens (SCENE.xdmf beside it is for older readers), and SCENE.png, and prints conserved\n"
-             "quantities, time and memory per particle.\n\n"
-             "  assay run swinging-cube --set n=16 --set stencil=closed --set material.nu=0.45",
-     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_OUT,
+     .help =
+         "Simulates a scene: one of `assay list scenes`, or the path of a .lua file. Writes SCENE.vtkhdf, which\n"
+         "ParaView opens (SCENE.xdmf beside it is for older readers), and SCENE.png, and prints conserved\n"
+         "quantities, time and memory per particle.\n\n"
+         "  assay run swinging-cube --set n=16 --set stencil=closed --set material.nu=0.45\n"
+         "  assay run swinging-cube --error p=1e-3\n\n"
+         "--error runs the cheapest configuration that the last assay trade SCENE saw reach the error, says what it\n"
+         "took and why, and has the oracle judge this run: exit code 1 if the error is larger than asked for, or\n"
+         "another than the study says. It is refused without a study, with one of a scene that has changed since\n"
+         "or of other overrides, and where nothing measured reaches the error.",
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_OUT | VERIFY_TAKES_ERROR | VERIFY_TAKES_STUDY,
      .least = 1,
      .most = 1,
      .run = verify_command_run},
@@ -46,6 +52,15 @@ static const struct verify_command commands[] = {
      .least = 1,
      .most = 2,
      .run = verify_command_verify},
+    {.name = "trade",
+     .operands = "SCENE",
+     .summary = "what accuracy costs: which configuration to choose for an error",
+     .help = VERIFY_TRADE_HELP,
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_LEVELS | VERIFY_TAKES_VARY | VERIFY_TAKES_ERROR_NAME |
+              VERIFY_TAKES_BUDGET | VERIFY_TAKES_JSON | VERIFY_TAKES_OUT,
+     .least = 1,
+     .most = 1,
+     .run = verify_command_trade},
     {.name = "render",
      .operands = "RECORD",
      .summary = "contour picture of a record",

@@ -19,6 +19,14 @@ struct option {
 static const struct option options_table[] = {
     {"--set", "-s", "KEY=VALUE", "override a key of the scene; may be repeated", VERIFY_TAKES_SET},
     {"--levels", "-l", "N,N,...", "spacings along the reference length, increasing", VERIFY_TAKES_LEVELS},
+    {"--vary", "-v", "KEY=V,V,...", "values of a key to try, in place of those tried anyway; may be repeated",
+     VERIFY_TAKES_VARY},
+    {"--error", "-e", "NAME", "the error that the fronts are of (default: the first that the scene shows)",
+     VERIFY_TAKES_ERROR_NAME},
+    {"--error", "-e", "[NAME=]BOUND", "run the cheapest configuration that a study (assay trade) saw reach this error",
+     VERIFY_TAKES_ERROR},
+    {"--study", NULL, "FILE", "that study's trade.tsv (default: in the folder of --out)", VERIFY_TAKES_STUDY},
+    {"--budget", "-b", "SECONDS", "time for the study (default 120)", VERIFY_TAKES_BUDGET},
     {"--json", "-j", "FILE", "write the result for programs", VERIFY_TAKES_JSON},
     {"--out", "-O", "DIR", "folder for the files written (default out/SCENE)", VERIFY_TAKES_OUT},
     {"--output", "-o", "PNG", "the picture's file", VERIFY_TAKES_PICTURE},
@@ -134,6 +142,15 @@ static bool read_override(const struct verify_command *command, const char *text
     return true;
 }
 
+static bool read_budget(const struct verify_command *command, const char *text, struct verify_options *options,
+                        struct solver_error *error)
+{
+    char *end = (char *)text;
+    options->budget = strtod(text, &end);
+    return (end != text && *end == '\0' && options->budget > 0 && options->budget <= 1e7) ||
+           bad(error, command, text, "--budget wants a number of seconds above 0, as in 60");
+}
+
 /* "5e-4,0.02": two shares. */
 static bool read_tolerance(const struct verify_command *command, const char *text, struct verify_options *options,
                            struct solver_error *error)
@@ -246,6 +263,15 @@ static bool apply(const struct verify_command *command, const struct option *opt
         return true;
     case VERIFY_TAKES_TOLERANCE:
         return read_tolerance(command, value, options, error);
+    case VERIFY_TAKES_VARY:
+        return add(command, option, &options->vary, value, true, error);
+    case VERIFY_TAKES_ERROR_NAME:
+    case VERIFY_TAKES_ERROR:
+        return once(command, option, &options->error, value, error);
+    case VERIFY_TAKES_STUDY:
+        return once(command, option, &options->study, value, error);
+    case VERIFY_TAKES_BUDGET:
+        return read_budget(command, value, options, error);
     default:
         return apply_to_judge(command, option, value, options, error);
     }
@@ -315,6 +341,18 @@ bool verify_options_parse(const struct verify_command *command, int count, char 
     if (!options->help && !options->mutations && options->operand_count < command->least) {
         return solver_fail(error, SOLVER_BAD_INPUT, "assay %s wants %s; see assay %s --help", command->name,
                            command->operands, command->name);
+    }
+    return true;
+}
+
+bool verify_refuse_n(const struct verify_options *options, struct solver_error *error)
+{
+    for (size_t i = 0; i < options->override_count; i++) {
+        if (strncmp(options->override[i], "n=", 2) == 0 || strncmp(options->override[i], "levels=", 7) == 0) {
+            return solver_fail(error, SOLVER_BAD_INPUT,
+                               "--set %s: a study runs several values of n; say which by --levels 4,8,16",
+                               options->override[i]);
+        }
     }
     return true;
 }

@@ -37,6 +37,11 @@ enum verify_takes {
     VERIFY_TAKES_TABLE = 16384, /* --output FILE.h5 or FILE.csv */
     VERIFY_TAKES_TOLERANCE = 32768,
     VERIFY_TAKES_MUTATIONS = 65536, /* --mutations, in place of any word */
+    VERIFY_TAKES_VARY = 1 << 17,
+    VERIFY_TAKES_BUDGET = 1 << 18,
+    VERIFY_TAKES_ERROR_NAME = 1 << 19, /* --error NAME */
+    VERIFY_TAKES_ERROR = 1 << 20,      /* --error [NAME=]BOUND */
+    VERIFY_TAKES_STUDY = 1 << 21,      /* --study FILE */
 };
 
 /* What an option that may be repeated was given, in order. */
@@ -56,9 +61,11 @@ struct verify_options {
     bool has_tolerance;
     double tolerance[2];                                           /* shares of pixels: in all, within the worst tile */
     const char *oracle, *times, *spacings, *points, *grid, *table; /* NULL where not given */
-    struct verify_list param, norm, gate, order;
-    bool typical; /* the oracle's typical values in place of what is not given */
-    bool inside;  /* places outside the body are left out */
+    struct verify_list param, norm, gate, order, vary;
+    const char *error, *study; /* NULL where not given */
+    double budget;             /* [s]; 0 where not given */
+    bool typical;              /* the oracle's typical values in place of what is not given */
+    bool inside;               /* places outside the body are left out */
     bool help;
     bool mutations;
     char line[VERIFY_COMMAND_LINE]; /* the command line as typed, for the record */
@@ -78,6 +85,9 @@ struct verify_command {
 /* Reads the words after the command's name. Errors (SOLVER_BAD_INPUT) name the word and suggest what was meant. */
 bool verify_options_parse(const struct verify_command *command, int count, char *const *words,
                           struct verify_options *options, struct solver_error *error);
+
+/* Refuses --set n and --set levels, for commands that run several levels. */
+bool verify_refuse_n(const struct verify_options *options, struct solver_error *error);
 
 /* The options of a command, as help and manual show them; returns how many there are. */
 struct verify_option_line {

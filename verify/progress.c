@@ -4,7 +4,7 @@
 #include <time.h>
 #include <unistd.h>
 
-static double now(void)
+double verify_now(void)
 {
     struct timespec t;
     (void)clock_gettime(CLOCK_MONOTONIC, &t);
@@ -13,7 +13,7 @@ static double now(void)
 
 void verify_progress_begin(struct verify_progress *progress, const char *label, double t_end)
 {
-    double begun = now();
+    double begun = verify_now();
     *progress = (struct verify_progress){
         .label = label, .t_end = t_end, .on = isatty(STDERR_FILENO) == 1, .begun = begun, .shown = begun};
     if (progress->on) {
@@ -26,7 +26,7 @@ bool verify_progress_show(void *context, double time, double stop, size_t step)
     (void)stop;
     static const char full[] = "##############################", empty[] = "..............................";
     struct verify_progress *progress = context;
-    double at = now();
+    double at = verify_now();
     if (!progress->on || at - progress->shown < 0.1 || !(progress->t_end > 0)) {
         return true;
     }

@@ -12,6 +12,9 @@ struct verify_progress {
     double begun, shown; /* [s] on the monotonic clock; shown: when the line was last written */
 };
 
+/* [s] on the monotonic clock. */
+double verify_now(void);
+
 void verify_progress_begin(struct verify_progress *progress, const char *label, double t_end);
 /* A solver_progress: context is the struct verify_progress. Never stops the run. */
 bool verify_progress_show(void *context, double time, double t_end, size_t step);

@@ -92,7 +92,7 @@ static bool is_method(const char *key, size_t length)
     static const char *const methods[] = {
         "scheme",           "evolved",    "stencil",   "support", "reconstruction", "volume_flux",
         "angular_momentum", "integrator", "cfl",       "n",       "perturb",        "seed",
-        "precision",        "threads",    "snapshots", "history", "beside"};
+        "precision",        "threads",    "snapshots", "history", "beside",         "trade"};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
         if (strlen(methods[i]) == length && strncmp(methods[i], key, length) == 0) {
             return true;

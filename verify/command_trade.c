@@ -1,0 +1,287 @@
+/* assay trade: what accuracy costs. */
+#include "verify/commands.h"
+#include "verify/figures.h"
+#include "verify/find.h"
+#include "verify/progress.h"
+#include "verify/report.h"
+#include "verify/report_trade.h"
+#include "verify/study.h"
+#include "verify/trade_run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Of what stands on the front of time, after it was timed once: more of what is short. */
+enum { FEW_REPEATS = 2, MANY_REPEATS = 10 };
+static const double time_to_repeat = 0.2; /* [s] */
+static const double usual_budget = 120;
+static const double repeat_share = 0.2; /* of the budget, kept for repeats */
+static const double near = 1.5;         /* a run timed once may be that much faster */
+
+/* All that a study needs while it runs. */
+struct work {
+    struct verify_trader trader;
+    struct verify_trade trade;
+    struct solver_scene *scene;
+    double begun; /* [s] on verify_now() */
+    bool on;      /* standard error is a terminal */
+};
+
+static bool choose_levels(struct work *work, struct solver_error *error)
+{
+    const struct verify_options *options = work->trader.options;
+    bool given = options->level_count > 0;
+    struct verify_trade *trade = &work->trade;
+    trade->level_count = given ? options->level_count : work->scene->level_count;
+    memcpy(trade->level, given ? options->level : work->scene->levels, trade->level_count * sizeof *trade->level);
+    if (trade->level_count == 0) {
+        trade->level[trade->level_count++] = work->scene->n;
+    }
+    return verify_refuse_n(options, error);
+}
+
+/* The errors that a study of the scene shows, and its figures; the first is chosen unless the command line names one.
+ */
+static bool choose_errors(struct work *work, struct solver_error *error)
+{
+    struct verify_trade *trade = &work->trade;
+    size_t shown[VERIFY_ERRORS], count = 0;
+    const char *asked = work->trader.options->error;
+    if (!verify_shown(work->scene, shown, &count, error)) {
+        return false;
+    }
+    for (size_t i = 0; i < count && trade->error_count < VERIFY_TRADE_ERRORS; i++) {
+        if (verify_error_has_order(shown[i])) {
+            (void)snprintf(trade->error_name[trade->error_count++], VERIFY_TRADE_NAME, "%s",
+                           verify_error_name(shown[i]));
+        }
+    }
+    for (size_t i = 0; i < work->scene->figure_count && trade->error_count < VERIFY_TRADE_ERRORS; i++) {
+        (void)snprintf(trade->error_name[trade->error_count++], VERIFY_TRADE_NAME, "figure %s",
+                       work->scene->figure[i].name);
+    }
+    if (asked == NULL) {
+        return true;
+    }
+    trade->chosen = verify_trade_error(trade, asked);
+    if (trade->chosen == trade->error_count) { /* any other that the scene can have */
+        struct verify_level nothing = {.n = 0};
+        struct verify_value value;
+        trade->chosen = trade->error_count < VERIFY_TRADE_ERRORS ? trade->error_count++ : VERIFY_TRADE_ERRORS - 1;
+        (void)snprintf(trade->error_name[trade->chosen], VERIFY_TRADE_NAME, "%s", asked);
+        return verify_level_value(work->scene, &nothing, asked, "--error", &value, error) &&
+               (value.op[0] == '<' || solver_fail(error, SOLVER_BAD_INPUT, "--error %s: no error", asked));
+    }
+    return true;
+}
+
+static void show_progress(const struct work *work, size_t done, size_t all, double level_begun, int n)
+{
+    if (!work->on) {
+        return;
+    }
+    double now = verify_now(), spent = now - work->begun;
+    (void)fprintf(stderr, "\r\033[K%s, n = %d: run %zu of %zu, %.0f s of at most %.0f s", work->trade.scene, n,
+                  done + 1, all, spent, work->trade.budget);
+    if (done > 4) {
+        (void)fprintf(stderr, ", about %.0f s to go at this n",
+                      (now - level_begun) / (double)done * (double)(all - done));
+    }
+}
+
+/* Runs [from, to) of one level until the deadline. */
+static bool run_level(struct work *work, size_t from, size_t to, double deadline, struct solver_error *error)
+{
+    struct verify_trade *trade = &work->trade;
+    double begun = verify_now();
+    for (size_t i = from; i < to; i++) {
+        struct verify_trade_run *run = &trade->run[i];
+        if (run->why[0] != '\0') {
+            continue; /* beaten at the level before */
+        }
+        bool first = i == 0; /* the scene's own, without which there is nothing to compare with */
+        work->trader.deadline = first ? INFINITY : deadline;
+        show_progress(work, i - from, to - from, begun, run->n);
+        if (!first && verify_now() > deadline) {
+            (void)snprintf(run->why, sizeof run->why, "the budget was spent before its turn");
+        } else if (!verify_trade_measure(&work->trader, run, error)) {
+            return false;
+        }
+        if (first && run->end != VERIFY_MEASURED) {
+            return solver_fail(error, run->end == VERIFY_REFUSED ? SOLVER_BAD_INPUT : SOLVER_BROKE_DOWN,
+                               "the scene's own configuration at n = %d cannot be measured: %.400s", run->n, run->why);
+        }
+    }
+    if (work->on) {
+        (void)fprintf(stderr, "\r\033[K");
+    }
+    trade->spent = verify_now() - work->begun;
+    verify_trade_print_level(stdout, trade, from, to);
+    return true;
+}
+
+/* Each level may take half of the time that is left, the last all of it. */
+static bool run_levels(struct work *work, struct solver_error *error)
+{
+    struct verify_trade *trade = &work->trade;
+    double end = work->begun + (1 - repeat_share) * trade->budget;
+    size_t from = 0;
+    for (size_t level = 0; level < trade->level_count; level++) {
+        bool last = level + 1 == trade->level_count;
+        double now = verify_now();
+        if (level > 0 && !verify_trade_promote(trade, level, error)) {
+            return false;
+        }
+        if (!run_level(work, from, trade->run_count, last ? end : now + 0.5 * (end - now), error)) {
+            return false;
+        }
+        from = trade->run_count;
+    }
+    return true;
+}
+
+/* Of what was timed once the run that is nearest to the front of time, if it would stand there were it `near` times as
+ * fast: so much a time may be off. NULL if there is none. */
+static struct verify_trade_run *next_to_time(struct verify_trade *trade)
+{
+    struct verify_trade_run *found = NULL;
+    double least = near;
+    for (size_t i = 0; i < trade->run_count; i++) {
+        struct verify_trade_run *run = &trade->run[i];
+        if (run->end != VERIFY_MEASURED || run->spread) {
+            continue;
+        }
+        double bound = run->error[trade->chosen];
+        size_t cheapest = verify_trade_cheapest(trade, trade->chosen, bound, VERIFY_SECONDS, false);
+        double ratio = run->cost[VERIFY_SECONDS] / trade->run[cheapest].cost[VERIFY_SECONDS];
+        if (ratio < least) {
+            found = run;
+            least = ratio;
+        }
+    }
+    return found;
+}
+
+/* Times once more what stands on the front of time or near it, with more threads too, which change no digit of the
+ * result, unless the scene or the command line says how many. */
+static bool repeat(struct work *work, struct solver_error *error)
+{
+    struct verify_trade *trade = &work->trade;
+    work->trader.deadline = work->begun + trade->budget;
+    struct verify_trade_run *next = next_to_time(trade);
+    while (next != NULL && verify_now() < work->trader.deadline) {
+        if (work->on) {
+            (void)fprintf(stderr, "\r\033[K%s: timing again, %.0f s of at most %.0f s", trade->scene,
+                          verify_now() - work->begun, trade->budget);
+        }
+        double wanted = fmin(MANY_REPEATS, fmax(FEW_REPEATS, time_to_repeat / next->cost[VERIFY_SECONDS]));
+        next->spread = true;
+        if (!verify_trade_time(&work->trader, next, next->threads, (int)wanted, error) ||
+            (work->scene->threads == 0 && !verify_trade_time(&work->trader, next, 0, (int)wanted, error))) {
+            return false;
+        }
+        next = next_to_time(trade);
+    }
+    if (work->on) {
+        (void)fprintf(stderr, "\r\033[K");
+    }
+    trade->spent = verify_now() - work->begun;
+    return verify_trade_fronts(trade, error);
+}
+
+/* Three verify_writers. */
+static bool write_json(FILE *file, const void *context, struct solver_error *error)
+{
+    (void)error;
+    verify_trade_json(file, &((const struct work *)context)->trade);
+    return true;
+}
+
+static bool write_svg(FILE *file, const void *context, struct solver_error *error)
+{
+    (void)error;
+    verify_trade_svg(file, &((const struct work *)context)->trade);
+    return true;
+}
+
+static bool write_html(FILE *file, const void *context, struct solver_error *error)
+{
+    const struct work *work = context;
+    (void)error;
+    verify_trade_html(file, &work->trade, work->scene, &work->trader.truth[0]);
+    return true;
+}
+
+static bool write_files(const struct work *work, struct solver_error *error)
+{
+    static const struct {
+        const char *ending;
+        verify_writer *write;
+    } reports[] = {{".html", write_html}, {".svg", write_svg}, {".json", write_json}};
+    const struct verify_options *options = work->trader.options;
+    char folder[VERIFY_PATH], path[VERIFY_PATH];
+    if (!verify_out_folder(options, work->scene->name, folder, error) ||
+        !verify_path_join(path, folder, "trade", ".tsv", error) || !verify_trade_write(&work->trade, path, error)) {
+        return false;
+    }
+    (void)printf("\nstudy      %s\n", path);
+    for (size_t i = 0; i < sizeof reports / sizeof *reports; i++) {
+        if (!verify_path_join(path, folder, "trade", reports[i].ending, error) ||
+            !verify_report_write(path, reports[i].write, work, error)) {
+            return false;
+        }
+        (void)printf("           %s\n", path);
+    }
+    return options->json == NULL || verify_report_write(options->json, write_json, work, error);
+}
+
+static bool study(struct work *work, struct solver_error *error)
+{
+    const struct verify_options *options = work->trader.options;
+    struct verify_trade *trade = &work->trade;
+    struct verify_truth *truth = &work->trader.truth[0];
+    if (!verify_scene_open(options, 0, &work->scene, error) || !verify_trade_begin(work->scene, trade, error) ||
+        !choose_levels(work, error) || !verify_truth_create(work->scene, truth, error)) {
+        return false;
+    }
+    work->trader.scene = work->scene;
+    work->trader.opened[0] = true;
+    trade->budget = options->budget > 0 ? options->budget : usual_budget;
+    if (!truth->proven) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "%s: the oracle does not prove itself; assay verify says where",
+                           work->scene->path);
+    }
+    if (!verify_figures_check(work->scene, truth, error) || !choose_errors(work, error) ||
+        !verify_trade_axes(options, work->scene, trade, error) || !verify_trade_plan(work->scene, trade, error)) {
+        return false;
+    }
+    verify_trade_print_begin(stdout, trade, work->scene, truth);
+    if (!run_levels(work, error) || !repeat(work, error)) {
+        return false;
+    }
+    verify_trade_print_end(stdout, trade);
+    return write_files(work, error);
+}
+
+int verify_command_trade(const struct verify_options *options)
+{
+    struct solver_error error = {.code = SOLVER_OK};
+    struct work *work = calloc(1, sizeof *work);
+    if (work == NULL) {
+        (void)solver_fail(&error, SOLVER_NO_MEMORY, "no memory for a study");
+        return verify_complain(&error);
+    }
+    work->trader.options = options;
+    work->trader.trade = &work->trade;
+    work->begun = verify_now();
+    work->on = isatty(STDERR_FILENO) == 1;
+    bool done = study(work, &error);
+    verify_trader_free(&work->trader);
+    verify_trade_free(&work->trade);
+    solver_scene_free(work->scene);
+    free(work);
+    return done ? VERIFY_PASSED : verify_complain(&error);
+}
