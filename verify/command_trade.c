@@ -19,7 +19,8 @@ enum { FEW_REPEATS = 2, MANY_REPEATS = 10 };
 static const double time_to_repeat = 0.2; /* [s] */
 static const double usual_budget = 120;
 static const double repeat_share = 0.2; /* of the budget, kept for repeats */
-static const double near = 1.5;         /* a run timed once may be that much faster */
+/* A run timed once may be this much faster, by a factor and, where another program took the core, by a slice [s]. */
+static const double near = 1.5, off = 0.01;
 
 /* All that a study needs while it runs. */
 struct work {
@@ -40,7 +41,26 @@ static bool choose_levels(struct work *work, struct solver_error *error)
     if (trade->level_count == 0) {
         trade->level[trade->level_count++] = work->scene->n;
     }
-    return verify_refuse_n(options, error);
+    return verify_refuse_n(options, verify_by_levels, error);
+}
+
+/* Any error that the scene can have, shown or not. */
+static bool choose_asked(struct work *work, const char *asked, struct solver_error *error)
+{
+    struct verify_trade *trade = &work->trade;
+    struct verify_level nothing = {.n = 0};
+    struct verify_value value;
+    trade->chosen = verify_trade_error(trade, asked);
+    if (trade->chosen < trade->error_count) {
+        return true;
+    }
+    if (trade->error_count == VERIFY_TRADE_ERRORS) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "--error %s: the scene shows too many errors besides", asked);
+    }
+    (void)snprintf(trade->error_name[trade->error_count++], VERIFY_TRADE_NAME, "%s", asked);
+    return verify_level_value(work->scene, &nothing, asked, "--error", &value, error) &&
+           ((value.op[0] == '<' && strncmp(asked, "indicator ", 10) != 0) ||
+            solver_fail(error, SOLVER_BAD_INPUT, "--error %s: no error", asked));
 }
 
 /* The errors that a study of the scene shows, and its figures; the first is chosen unless the command line names one.
@@ -63,19 +83,7 @@ static bool choose_errors(struct work *work, struct solver_error *error)
         (void)snprintf(trade->error_name[trade->error_count++], VERIFY_TRADE_NAME, "figure %s",
                        work->scene->figure[i].name);
     }
-    if (asked == NULL) {
-        return true;
-    }
-    trade->chosen = verify_trade_error(trade, asked);
-    if (trade->chosen == trade->error_count) { /* any other that the scene can have */
-        struct verify_level nothing = {.n = 0};
-        struct verify_value value;
-        trade->chosen = trade->error_count < VERIFY_TRADE_ERRORS ? trade->error_count++ : VERIFY_TRADE_ERRORS - 1;
-        (void)snprintf(trade->error_name[trade->chosen], VERIFY_TRADE_NAME, "%s", asked);
-        return verify_level_value(work->scene, &nothing, asked, "--error", &value, error) &&
-               (value.op[0] == '<' || solver_fail(error, SOLVER_BAD_INPUT, "--error %s: no error", asked));
-    }
-    return true;
+    return asked == NULL || choose_asked(work, asked, error);
 }
 
 static void show_progress(const struct work *work, size_t done, size_t all, double level_begun, int n)
@@ -143,23 +151,23 @@ static bool run_levels(struct work *work, struct solver_error *error)
     return true;
 }
 
-/* Of what was timed once the run that is nearest to the front of time, if it would stand there were it `near` times as
- * fast: so much a time may be off. NULL if there is none. */
+/* Of what was timed once the run nearest to the front of time, if it would stand there were its time off by what a time
+ * may be off; NULL if there is none. */
 static struct verify_trade_run *next_to_time(struct verify_trade *trade)
 {
     struct verify_trade_run *found = NULL;
-    double least = near;
+    double least = INFINITY;
     for (size_t i = 0; i < trade->run_count; i++) {
         struct verify_trade_run *run = &trade->run[i];
         if (run->end != VERIFY_MEASURED || run->spread) {
             continue;
         }
-        double bound = run->error[trade->chosen];
+        double bound = run->error[trade->chosen], seconds = run->cost[VERIFY_SECONDS];
         size_t cheapest = verify_trade_cheapest(trade, trade->chosen, bound, VERIFY_SECONDS, false);
-        double ratio = run->cost[VERIFY_SECONDS] / trade->run[cheapest].cost[VERIFY_SECONDS];
-        if (ratio < least) {
+        double fastest = trade->run[cheapest].cost[VERIFY_SECONDS];
+        if (seconds - fastest <= off + (near - 1) * fastest && seconds / fastest < least) {
             found = run;
-            least = ratio;
+            least = seconds / fastest;
         }
     }
     return found;
@@ -258,6 +266,8 @@ static bool study(struct work *work, struct solver_error *error)
         !verify_trade_axes(options, work->scene, trade, error) || !verify_trade_plan(work->scene, trade, error)) {
         return false;
     }
+    size_t chosen = verify_error_find(trade->error_name[trade->chosen]); /* figures have relative errors */
+    trade->relative = chosen == VERIFY_ERRORS || strcmp(verify_error_unit(chosen), "-") == 0;
     verify_trade_print_begin(stdout, trade, work->scene, truth);
     if (!run_levels(work, error) || !repeat(work, error)) {
         return false;

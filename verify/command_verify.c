@@ -193,8 +193,9 @@ static bool choose_shown(struct work *work, struct solver_error *error)
 /* The whole study; *passed says whether nothing it judged failed. */
 static bool study(struct work *work, bool *passed, struct solver_error *error)
 {
-    if (!verify_refuse_n(work->options, error) || !open_level(work, 0, error) || !choose_levels(work, error) ||
-        !open_all_levels(work, error) || !verify_truth_open(work->scene, &work->truth, error) ||
+    if (!verify_refuse_n(work->options, verify_by_levels, error) || !open_level(work, 0, error) ||
+        !choose_levels(work, error) || !open_all_levels(work, error) ||
+        !verify_truth_open(work->scene, &work->truth, error) ||
         !verify_beside_open(work->options, work->scene, &work->beside, error)) {
         return false;
     }

@@ -69,8 +69,7 @@
     "  of them beats in error, pairs and bytes, and the scene's own. The others are listed as beaten.\n"               \
     "\n"                                                                                                               \
     "THREADS  One, unless the scene or --set says how many; no digit depends on it. What no other beats in time,\n"    \
-    "  or by a third at most, is timed again, and with as many threads as there are cores and the work is\n"     \
-    "  worth.\n"                                                                                                       \
+    "  or by little, is timed again, and with as many threads as there are cores and the work is worth.\n"             \
     "\n"                                                                                                               \
     "BUDGET  A level may take half of the time left, the last all but a fifth, which is kept for repeats. What\n"      \
     "  was not run for want of time is listed, as is what was refused or broke down, with the reason. Errors,\n"       \

@@ -345,13 +345,13 @@ bool verify_options_parse(const struct verify_command *command, int count, char 
     return true;
 }
 
-bool verify_refuse_n(const struct verify_options *options, struct solver_error *error)
+const char verify_by_levels[] = "a study runs several values of n; say which by --levels 4,8,16";
+
+bool verify_refuse_n(const struct verify_options *options, const char *how, struct solver_error *error)
 {
     for (size_t i = 0; i < options->override_count; i++) {
         if (strncmp(options->override[i], "n=", 2) == 0 || strncmp(options->override[i], "levels=", 7) == 0) {
-            return solver_fail(error, SOLVER_BAD_INPUT,
-                               "--set %s: a study runs several values of n; say which by --levels 4,8,16",
-                               options->override[i]);
+            return solver_fail(error, SOLVER_BAD_INPUT, "--set %s: %s", options->override[i], how);
         }
     }
     return true;

@@ -86,8 +86,9 @@ struct verify_command {
 bool verify_options_parse(const struct verify_command *command, int count, char *const *words,
                           struct verify_options *options, struct solver_error *error);
 
-/* Refuses --set n and --set levels, for commands that run several levels. */
-bool verify_refuse_n(const struct verify_options *options, struct solver_error *error);
+/* Refuses --set n and --set levels, for commands that choose n otherwise; `how` says which way. */
+bool verify_refuse_n(const struct verify_options *options, const char *how, struct solver_error *error);
+extern const char verify_by_levels[];
 
 /* The options of a command, as help and manual show them; returns how many there are. */
 struct verify_option_line {

@@ -159,20 +159,19 @@ static void draw_own(FILE *file, const struct chart *chart)
     }
 }
 
-/* In the corner that nothing reaches: cheap and accurate. */
-static void draw_key(FILE *file, const struct chart *chart)
+void verify_plot_trade_key(FILE *file, const struct verify_trade *trade)
 {
-    double y = BOTTOM - 12;
-    (void)fprintf(file,
-                  "<circle cx=\"%d\" cy=\"%.1f\" r=\"7.5\" fill=\"none\" stroke=\"#1b1f24\"/><text x=\"%d\" y=\"%.1f\">"
-                  "the scene's own</text>\n",
-                  LEFT + 14, y - 4, LEFT + 26, y);
-    for (size_t i = chart->kinds; i-- > 0;) {
-        y -= 17;
-        (void)fprintf(file,
-                      "<circle cx=\"%d\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\"/><text x=\"%d\" y=\"%.1f\">%s</text>\n",
-                      LEFT + 14, y - 4, colours[i], LEFT + 26, y, chart->kind[i]);
+    struct chart chart = {.trade = trade, .cost = VERIFY_PAIRS};
+    stretch(&chart);
+    int y = TOP + 12;
+    for (size_t i = 0; i < chart.kinds; i++, y += 18) {
+        (void)fprintf(file, "<circle cx=\"14\" cy=\"%d\" r=\"4.5\" fill=\"%s\"/><text x=\"28\" y=\"%d\">%s</text>\n",
+                      y - 4, colours[i], y, chart.kind[i]);
     }
+    (void)fprintf(file,
+                  "<circle cx=\"14\" cy=\"%d\" r=\"7.5\" fill=\"none\" stroke=\"#1b1f24\"/><text x=\"28\" "
+                  "y=\"%d\">the scene's own</text>\n",
+                  y - 4, y);
 }
 
 void verify_plot_trade(FILE *file, const struct verify_trade *trade, enum verify_cost cost)
@@ -195,13 +194,12 @@ void verify_plot_trade(FILE *file, const struct verify_trade *trade, enum verify
         }
     }
     draw_own(file, &chart);
-    draw_key(file, &chart);
 }
 
 void verify_trade_svg(FILE *file, const struct verify_trade *trade)
 {
     static const enum verify_cost order[VERIFY_COSTS] = {VERIFY_SECONDS, VERIFY_PAIRS, VERIFY_BYTES};
-    int width = VERIFY_COSTS * VERIFY_TRADE_CHART_WIDTH;
+    int width = VERIFY_COSTS * VERIFY_TRADE_CHART_WIDTH + VERIFY_TRADE_KEY_WIDTH;
     (void)fprintf(file,
                   "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
                   "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"%d\" height=\"%d\" fill=\"#ffffff\"/>\n",
@@ -211,5 +209,7 @@ void verify_trade_svg(FILE *file, const struct verify_trade *trade)
         verify_plot_trade(file, trade, order[i]);
         (void)fprintf(file, "</g>\n");
     }
-    (void)fprintf(file, "</svg>\n");
+    (void)fprintf(file, "<g transform=\"translate(%d 0)\">\n", VERIFY_COSTS * VERIFY_TRADE_CHART_WIDTH);
+    verify_plot_trade_key(file, trade);
+    (void)fprintf(file, "</g>\n</svg>\n");
 }

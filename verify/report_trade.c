@@ -91,8 +91,9 @@ static void print_fronts(FILE *file, const struct verify_trade *trade)
                       run->front[VERIFY_BYTES] ? 'b' : ' ', run->cost[VERIFY_SECONDS], noise, run->threads,
                       run->cost[VERIFY_PAIRS], run->cost[VERIFY_BYTES], words);
     }
-    (void)fprintf(file, "noise: slowest over fastest of the repeats, less 1; -: timed once. thr: threads of the best "
-                        "time.\n");
+    (void)fprintf(file,
+                  "noise: second fastest over fastest of the repeats, less 1; -: timed once. thr: threads of the best "
+                  "time.\n");
 }
 
 /* Runs that ended this way, grouped by the reason, each with the first that it is of. */
@@ -166,7 +167,7 @@ size_t verify_trade_decades(const struct verify_trade *trade, size_t error, doub
             most = fmax(most, run->error[error]);
         }
     }
-    for (int power = (int)floor(log10(fmin(most, 1))); most > 0 && count < room; power--) {
+    for (int power = (int)floor(log10(trade->relative ? fmin(most, 0.99) : most)); most > 0 && count < room; power--) {
         decade[count++] = pow(10, power);
         if (decade[count - 1] < least) {
             break;

@@ -34,8 +34,10 @@ size_t verify_trade_decades(const struct verify_trade *trade, size_t error, doub
 void verify_trade_json(FILE *file, const struct verify_trade *trade);
 
 /* Error over cost, both axes logarithmic, as a group of a width and height that the caller has room for. */
-enum { VERIFY_TRADE_CHART_WIDTH = 470, VERIFY_TRADE_CHART_HEIGHT = 420 };
+enum { VERIFY_TRADE_CHART_WIDTH = 470, VERIFY_TRADE_CHART_HEIGHT = 420, VERIFY_TRADE_KEY_WIDTH = 140 };
 void verify_plot_trade(FILE *file, const struct verify_trade *trade, enum verify_cost cost);
+/* What the colours of all charts mean. */
+void verify_plot_trade_key(FILE *file, const struct verify_trade *trade);
 /* The charts of all costs as one picture that stands alone. */
 void verify_trade_svg(FILE *file, const struct verify_trade *trade);
 void verify_trade_html(FILE *file, const struct verify_trade *trade, const struct solver_scene *scene,

@@ -15,8 +15,12 @@ static void charts(FILE *file, const struct verify_trade *trade)
         verify_plot_trade(file, trade, order[i]);
         (void)fprintf(file, "</svg>\n");
     }
-    (void)fprintf(file, "</div>\n<p class=\"note\">Each dot is a run; large ones, with the line of stairs, are those "
-                        "that no other beats. Rings are the scene's own configuration, level by level.</p>\n");
+    (void)fprintf(file, "<svg style=\"width:%dpx\" viewBox=\"0 0 %d %d\" role=\"img\" aria-label=\"key\">\n",
+                  VERIFY_TRADE_KEY_WIDTH, VERIFY_TRADE_KEY_WIDTH, VERIFY_TRADE_CHART_HEIGHT);
+    verify_plot_trade_key(file, trade);
+    (void)fprintf(file,
+                  "</svg>\n</div>\n<p class=\"note\">Each dot is a run; large ones, with the line of stairs, are those "
+                  "that no other beats. Rings are the scene's own configuration, level by level.</p>\n");
 }
 
 static void fronts(FILE *file, const struct verify_trade *trade)
@@ -49,8 +53,8 @@ static void fronts(FILE *file, const struct verify_trade *trade)
                       run->front[VERIFY_PAIRS] ? "pairs " : "", run->front[VERIFY_BYTES] ? "bytes" : "");
     }
     (void)fprintf(file,
-                  "</table>\n<p class=\"note\">Time: set-up and time loop, the best of the repeats; noise: slowest "
-                  "over fastest, less 1, a dash where it was timed once.</p>\n");
+                  "</table>\n<p class=\"note\">Time: set-up and time loop, the best of the repeats; noise: second "
+                  "fastest over fastest, less 1, a dash where it was timed once.</p>\n");
 }
 
 static void advice(FILE *file, const struct verify_trade *trade)

@@ -149,7 +149,8 @@ bool verify_trade_fronts(struct verify_trade *trade, struct solver_error *error)
     bool there = point != NULL && front != NULL;
     for (int cost = 0; there && cost < VERIFY_COSTS; cost++) {
         for (size_t i = 0; i < count; i++) {
-            bool measured = trade->run[i].end == VERIFY_MEASURED;
+            bool measured =
+                trade->run[i].end == VERIFY_MEASURED && !(trade->relative && trade->run[i].error[trade->chosen] >= 1);
             point[i] = measured ? trade->run[i].error[trade->chosen] : NAN;
             point[count + i] = measured ? trade->run[i].cost[cost] : NAN;
         }

@@ -39,6 +39,7 @@ struct verify_trade_run {
     bool own;        /* the scene's own configuration */
     size_t distance; /* values in which it differs from that */
     size_t order;    /* place in the list of all */
+    size_t rank;     /* how many runs of the level before beat it there */
     enum verify_trade_end end;
     char why[SOLVER_TEXT];       /* it was refused, broke down or was left out */
     char by[VERIFY_TRADE_WORDS]; /* what beat it at the level before, if that is why */
@@ -46,7 +47,7 @@ struct verify_trade_run {
     double evaluations; /* of the right-hand side */
     double cost[VERIFY_COSTS];
     int threads, repeats; /* of the best time */
-    double noise;         /* slowest over fastest repeat, less 1; NaN: timed once */
+    double noise;         /* second fastest over fastest repeat, less 1; NaN: timed once */
     bool spread;          /* timed with more threads as well */
     double error[VERIFY_TRADE_ERRORS];
     bool front[VERIFY_COSTS];
@@ -69,6 +70,7 @@ struct verify_trade {
     size_t level_count;
     int level[SOLVER_LEVELS];
     size_t error_count, chosen; /* chosen: that of the fronts */
+    bool relative;              /* it is: where it is 1 or more, nothing at all would be as good */
     char error_name[VERIFY_TRADE_ERRORS][VERIFY_TRADE_NAME];
     double budget, spent; /* [s] */
     size_t run_count;
@@ -94,7 +96,7 @@ void verify_trade_short(const struct verify_trade *trade, const struct verify_tr
 /* Which of `count` points no other beats: none has an error and a cost both at most as large, one of them smaller. Of
  * several that are equal the first. What is not finite beats nothing and is beaten. */
 void verify_pareto(size_t count, const double *error, const double *cost, bool *front);
-/* Marks the fronts of all costs by the chosen error. */
+/* Marks the fronts of all costs by the chosen error. A relative error of 1 or more stands on none. */
 bool verify_trade_fronts(struct verify_trade *trade, struct solver_error *error);
 /* The run of least cost whose error is at most the bound, and with `own` the scene's own configuration; of several the
  * first. trade->run_count if there is none. */
@@ -110,8 +112,9 @@ bool verify_trade_axes(const struct verify_options *options, const struct solver
                        struct verify_trade *trade, struct solver_error *error);
 /* All configurations at the first level, nearest to the scene's own first. */
 bool verify_trade_plan(const struct solver_scene *scene, struct verify_trade *trade, struct solver_error *error);
-/* Adds the runs of the next level: those that no other of their scheme, stencil, precision and variant beats at the
- * level before, and the scene's own, cheapest first; the others are added as left out. */
+/* Adds the runs of the next level: those that no other of their kind (scheme, stencil, precision, integrator, variant)
+ * beats at the level before, and the scene's own; the others are added as left out. The scene's own comes first, then
+ * those that the fewest of any kind beat. */
 bool verify_trade_promote(struct verify_trade *trade, size_t level, struct solver_error *error);
 
 /* Adds what a run overrides to the options, whose text goes to `store`. */

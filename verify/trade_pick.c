@@ -107,8 +107,7 @@ static void say(const struct verify_pick *pick, const char *path)
 /* The words of the study are foreign text: each is a key that a study varies, and the scene checks their values. */
 static bool configure(struct verify_pick *pick, const struct solver_scene *scene, struct solver_error *error)
 {
-    if (!verify_refuse_n(&pick->options, error) ||
-        !verify_trade_configure(scene, &pick->run, pick->store, &pick->options, error)) {
+    if (!verify_trade_configure(scene, &pick->run, pick->store, &pick->options, error)) {
         return false;
     }
     if (scene->threads == 0) {
@@ -123,8 +122,9 @@ bool verify_pick_open(const struct verify_options *options, const struct solver_
 {
     char path[VERIFY_PATH];
     *pick = (struct verify_pick){.options = *options};
-    if (!find_study(options, scene, path, error) || !read_study(path, scene, &pick->trade, error) ||
-        !read_bound(options, pick, error) || !pick_run(pick, path, error) || !configure(pick, scene, error)) {
+    if (!verify_refuse_n(options, "n is what --error picks", error) || !find_study(options, scene, path, error) ||
+        !read_study(path, scene, &pick->trade, error) || !read_bound(options, pick, error) ||
+        !pick_run(pick, path, error) || !configure(pick, scene, error)) {
         return false;
     }
     pick->level.n = pick->run.n;

@@ -160,30 +160,47 @@ static bool same_kind(const struct verify_trade_run *one, const struct verify_tr
     return same;
 }
 
-/* One of its kind that is as good or better in error, pairs and bytes; `run` itself if there is none. */
-static const struct verify_trade_run *better(const struct verify_trade *trade, const struct verify_trade_run *run,
-                                             size_t from, size_t to)
+/* Whether `other` is as good or better in error, pairs and bytes. */
+static bool beats(const struct verify_trade *trade, const struct verify_trade_run *other,
+                  const struct verify_trade_run *run)
 {
     size_t e = trade->chosen;
-    for (size_t i = from; i < to; i++) {
-        const struct verify_trade_run *other = &trade->run[i];
-        bool as_good = other != run && other->end == VERIFY_MEASURED && other->error[e] <= run->error[e] &&
-                       other->cost[VERIFY_PAIRS] <= run->cost[VERIFY_PAIRS] &&
-                       other->cost[VERIFY_BYTES] <= run->cost[VERIFY_BYTES];
-        bool less = other->error[e] < run->error[e] || other->cost[VERIFY_PAIRS] < run->cost[VERIFY_PAIRS] ||
-                    other->cost[VERIFY_BYTES] < run->cost[VERIFY_BYTES];
-        if (as_good && (less || i < (size_t)(run - trade->run)) && same_kind(other, run)) {
-            return other;
-        }
+    if (other == run || other->end != VERIFY_MEASURED) {
+        return false;
     }
-    return run;
+    bool as_good = other->error[e] <= run->error[e] && other->cost[VERIFY_PAIRS] <= run->cost[VERIFY_PAIRS] &&
+                   other->cost[VERIFY_BYTES] <= run->cost[VERIFY_BYTES];
+    bool less = other->error[e] < run->error[e] || other->cost[VERIFY_PAIRS] < run->cost[VERIFY_PAIRS] ||
+                other->cost[VERIFY_BYTES] < run->cost[VERIFY_BYTES];
+    return as_good && (less || other < run);
 }
 
-static int compare_cost(const void *a, const void *b)
+static int compare_rank(const void *a, const void *b)
 {
     const struct verify_trade_run *one = a, *other = b;
-    double x = one->cost[VERIFY_PAIRS], y = other->cost[VERIFY_PAIRS];
-    return x != y ? (x > y) - (x < y) : compare_distance(a, b);
+    if (one->own != other->own) {
+        return other->own - one->own;
+    }
+    return one->rank != other->rank ? (one->rank > other->rank) - (one->rank < other->rank) : compare_distance(a, b);
+}
+
+/* Of the run at the level before, what becomes of it at the next: how many beat it, and one of its kind that does. */
+static void look_back(const struct verify_trade *trade, const struct verify_trade_run *before, size_t from, size_t to,
+                      struct verify_trade_run *run)
+{
+    const struct verify_trade_run *best = NULL;
+    run->rank = 0;
+    for (size_t i = from; i < to; i++) {
+        const struct verify_trade_run *other = &trade->run[i];
+        if (before->end == VERIFY_MEASURED && beats(trade, other, before)) {
+            run->rank++;
+            best = best == NULL && same_kind(other, before) ? other : best;
+        }
+    }
+    if (best != NULL && !run->own) {
+        (void)snprintf(run->why, sizeof run->why, "beaten at n = %d by another of its kind", before->n);
+        (void)snprintf(run->by, sizeof run->by, "%s", best->words);
+    }
 }
 
 bool verify_trade_promote(struct verify_trade *trade, size_t level, struct solver_error *error)
@@ -203,19 +220,15 @@ bool verify_trade_promote(struct verify_trade *trade, size_t level, struct solve
             return false;
         }
         size_t order = run->order;
-        const struct verify_trade_run *other = refused ? before : better(trade, before, from, to);
         *run = *before;
         run->order = order;
         run->n = trade->level[level];
         run->end = VERIFY_LEFT_OUT;
         run->why[0] = '\0';
         run->by[0] = '\0';
-        if (other != before && !run->own) {
-            (void)snprintf(run->why, sizeof run->why, "beaten at n = %d by another of its kind", before->n);
-            (void)snprintf(run->by, sizeof run->by, "%s", other->words);
-        }
+        look_back(trade, before, from, to, run);
     }
-    qsort(trade->run + to, trade->run_count - to, sizeof *trade->run, compare_cost);
+    qsort(trade->run + to, trade->run_count - to, sizeof *trade->run, compare_rank);
     return true;
 }
 

@@ -172,33 +172,44 @@ static bool time_once(struct verify_trader *trader, const struct verify_trade_ru
     return done;
 }
 
+/* The two smallest times so far. */
+static void keep_best(double best[2], double seconds)
+{
+    if (seconds < best[0]) {
+        best[1] = best[0];
+        best[0] = seconds;
+    } else {
+        best[1] = fmin(best[1], seconds);
+    }
+}
+
 bool verify_trade_time(struct verify_trader *trader, struct verify_trade_run *run, int threads, int repeats,
                        struct solver_error *error)
 {
-    double least = INFINITY, most = 0;
+    double best[2] = {INFINITY, INFINITY};
     int used = 0, timed = 0;
-    for (int i = 0; i < repeats; i++) {
-        double seconds = INFINITY;
+    for (double seconds = 0; timed < repeats; timed++) {
         if (!time_once(trader, run, threads, &seconds, &used, error)) {
             return false;
         }
         if (!isfinite(seconds)) {
             break;
         }
-        least = fmin(least, seconds);
-        most = fmax(most, seconds);
-        timed++;
+        keep_best(best, seconds);
     }
-    if (timed > 0 && used == run->threads) { /* together with the times that there are */
-        most = fmax(most, run->cost[VERIFY_SECONDS]);
-        run->cost[VERIFY_SECONDS] = fmin(least, run->cost[VERIFY_SECONDS]);
-        run->repeats += timed;
-        run->noise = most / run->cost[VERIFY_SECONDS] - 1;
-    } else if (least < run->cost[VERIFY_SECONDS]) {
-        run->cost[VERIFY_SECONDS] = least;
+    bool together = used == run->threads; /* with the times that there are */
+    if (timed > 0 && together) {
+        double before = run->cost[VERIFY_SECONDS];
+        keep_best(best, before);
+        if (!isnan(run->noise)) {
+            keep_best(best, before * (1 + run->noise));
+        }
+    }
+    if (timed > 0 && (together || best[0] < run->cost[VERIFY_SECONDS])) {
+        run->repeats = together ? run->repeats + timed : timed;
         run->threads = used;
-        run->repeats = timed;
-        run->noise = timed > 1 ? most / least - 1 : NAN;
+        run->cost[VERIFY_SECONDS] = best[0];
+        run->noise = isfinite(best[1]) ? best[1] / best[0] - 1 : NAN;
     }
     return true;
 }
