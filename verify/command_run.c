@@ -81,7 +81,7 @@ static bool run_scene(struct solver_scene *scene, const struct verify_options *o
 
 /* The scene as the study says that it reaches the error; its oracle judges. */
 static bool run_picked(const struct solver_scene *scene, const struct verify_options *options, struct verify_pick *pick,
-                       bool *passed, struct solver_error *error)
+                       struct solver_error *error)
 {
     struct solver_scene *picked = NULL;
     bool done = verify_pick_open(options, scene, pick, error) &&
@@ -97,9 +97,22 @@ static bool run_picked(const struct solver_scene *scene, const struct verify_opt
                                  ? "PASS: the error is what was asked for, and what the study says"
                                  : "FAIL: the study does not hold for this run; make another: assay trade");
     }
+    solver_scene_free(picked);
+    return done;
+}
+
+/* The same, with room for all it needs; *passed: both gates do. */
+static bool pick_and_run(const struct solver_scene *scene, const struct verify_options *options, bool *passed,
+                         struct solver_error *error)
+{
+    struct verify_pick *pick = calloc(1, sizeof *pick);
+    if (pick == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for a study");
+    }
+    bool done = run_picked(scene, options, pick, error);
     *passed = pick->gates.pass;
     verify_pick_free(pick);
-    solver_scene_free(picked);
+    free(pick);
     return done;
 }
 
@@ -107,16 +120,11 @@ int verify_command_run(const struct verify_options *options)
 {
     struct solver_error error = {.code = SOLVER_OK};
     struct solver_scene *scene = NULL;
-    struct verify_pick *pick = calloc(1, sizeof *pick);
-    bool passed = true;
-    bool done = pick != NULL || solver_fail(&error, SOLVER_NO_MEMORY, "no memory for a run");
-    if (done && options->study != NULL && options->error == NULL) {
-        done = solver_fail(&error, SOLVER_BAD_INPUT, "--study says nothing without --error");
-    }
+    bool passed = true, done = options->study == NULL || options->error != NULL ||
+                               solver_fail(&error, SOLVER_BAD_INPUT, "--study says nothing without --error");
     done = done && verify_scene_open(options, 0, &scene, &error) &&
-           (options->error != NULL ? run_picked(scene, options, pick, &passed, &error)
+           (options->error != NULL ? pick_and_run(scene, options, &passed, &error)
                                    : run_scene(scene, options, NULL, &error));
     solver_scene_free(scene);
-    free(pick);
     return !done ? verify_complain(&error) : passed ? VERIFY_PASSED : VERIFY_FAILED;
 }
