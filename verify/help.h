@@ -78,6 +78,13 @@
     "ERROR  The fronts are of one error, by default the first that assay verify shows; --error names another, as\n"    \
     "  --error u or --error \"figure period\".\n"                                                                      \
     "\n"                                                                                                               \
+    "JSON    scene, oracle, error, overrides, budget, spent, axes {KEY: [value]}, levels [n], and\n"                   \
+    "        runs        [{configuration {KEY: value}, variant, n, own, particles, pairs, steps, evaluations,\n"       \
+    "                    cost {pair_evaluations, bytes, seconds}, threads, repeats, noise, errors {NAME: value},\n"    \
+    "                    fronts [name of cost]}]\n"                                                                    \
+    "        refused, broke_down, left_out   [{configuration, variant, n, why, by}]\n"                                 \
+    "        advice      [{error, run, own}]: places in runs, or null\n"                                               \
+    "\n"                                                                                                               \
     "What is measured is this scene, up to its t_end: a configuration that is unstable may not show it by then."
 
 #define VERIFY_ORACLE_HELP                                                                                             \
