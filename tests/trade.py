@@ -3,12 +3,15 @@ checks trade.json: its shape; that RUNS combinations a level, at least, are acco
 advice, found again by other code; and that errors, pairs and bytes are the same in both studies, to the last digit.
 trade.py forge FOLDER NAME: makes FOLDER/NAME a study that is well formed and lies: of the run that just misses an error
 P_l1 of 0.12 it says that this is ten times less, and that it is the cheapest."""
+import html.parser
 import json
 import math
 import os
 import subprocess
 import sys
+import xml.etree.ElementTree
 
+SVG = "{http://www.w3.org/2000/svg}"
 TOP = {"scene", "oracle", "error", "overrides", "budget", "spent", "axes", "levels", "runs", "refused", "broke_down",
        "left_out", "advice"}
 WHO = {"configuration", "variant", "n"}
@@ -29,13 +32,47 @@ def who(run):
     return json.dumps([run["configuration"], run["variant"], run["n"]], sort_keys=True)
 
 
+class Page(html.parser.HTMLParser):
+    """Every tag is closed in its turn."""
+    def __init__(self):
+        super().__init__()
+        self.open, self.charts = [], 0
+
+    def handle_starttag(self, tag, attributes):
+        self.charts += tag == "svg"
+        if tag not in ("meta", "br"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        demand(self.open[-1:] == [tag], f"</{tag}> closes {self.open[-1:]}")
+        self.open.pop()
+
+    def handle_startendtag(self, tag, attributes):
+        pass
+
+
+def check_picture(path):
+    """Three charts and a key; dots lie within the frame of theirs."""
+    charts = xml.etree.ElementTree.parse(path).getroot().findall(SVG + "g")
+    demand(len(charts) == 4, f"{len(charts)} parts of trade.svg")
+    for chart in charts[:3]:
+        x, y, width, height = (float(chart.find(SVG + "rect").get(name)) for name in ("x", "y", "width", "height"))
+        dots = [(float(dot.get("cx")), float(dot.get("cy"))) for dot in chart.findall(SVG + "circle")]
+        demand(len(dots) > 3, f"{len(dots)} dots")
+        demand(all(x <= cx <= x + width and y <= cy <= y + height for cx, cy in dots), "a dot lies beside its chart")
+
+
 def study(program, folder, words):
     command = [program, "trade", *words, "--out", folder]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     demand(done.returncode == 0, f"{done.stdout}\nexit code {done.returncode}: {' '.join(command)}")
     print(done.stdout[done.stdout.find("\nerror"):])
-    for ending in ("tsv", "html", "svg"):
-        demand(os.path.getsize(os.path.join(folder, "trade." + ending)) > 0, ending)
+    demand(os.path.getsize(os.path.join(folder, "trade.tsv")) > 0, "trade.tsv")
+    with open(os.path.join(folder, "trade.html"), encoding="utf-8") as file:
+        page = Page()
+        page.feed(file.read())
+        demand(not page.open and page.charts == 4, f"trade.html: {page.open} are not closed, {page.charts} charts")
+    check_picture(os.path.join(folder, "trade.svg"))
     with open(os.path.join(folder, "trade.json"), encoding="utf-8") as file:
         return json.load(file, parse_constant=no_number)
 

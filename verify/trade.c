@@ -48,9 +48,28 @@ bool verify_trade_begin(const struct solver_scene *scene, struct verify_trade *t
     (void)snprintf(trade->title, sizeof trade->title, "%s", scene->title);
     (void)snprintf(trade->oracle, sizeof trade->oracle, "%s", scene->oracle);
     trade->overrides = strdup(scene->overrides);
-    trade->run = calloc(VERIFY_TRADE_RUNS, sizeof *trade->run);
-    return (trade->overrides != NULL && trade->run != NULL) ||
-           solver_fail(error, SOLVER_NO_MEMORY, "no memory for a study of %d runs", (int)VERIFY_TRADE_RUNS);
+    return trade->overrides != NULL || solver_fail(error, SOLVER_NO_MEMORY, "no memory for a study");
+}
+
+bool verify_trade_reserve(struct verify_trade *trade, size_t more, struct solver_error *error)
+{
+    size_t wanted = trade->run_count + more;
+    if (wanted > VERIFY_TRADE_RUNS) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "more than %d runs: fix some keys by --set, or name the values to try by --vary",
+                           (int)VERIFY_TRADE_RUNS);
+    }
+    if (wanted <= trade->run_room) {
+        return true;
+    }
+    size_t room = wanted > 2 * trade->run_room ? wanted : 2 * trade->run_room;
+    struct verify_trade_run *run = realloc(trade->run, room * sizeof *run);
+    if (run == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for a study of %zu runs", room);
+    }
+    trade->run = run;
+    trade->run_room = room;
+    return true;
 }
 
 void verify_trade_free(struct verify_trade *trade)
@@ -59,7 +78,7 @@ void verify_trade_free(struct verify_trade *trade)
     free(trade->run);
     trade->overrides = NULL;
     trade->run = NULL;
-    trade->run_count = 0;
+    trade->run_count = trade->run_room = 0;
 }
 
 bool verify_trade_key(const char *key, size_t length)

@@ -73,13 +73,15 @@ struct verify_trade {
     bool relative;              /* it is: where it is 1 or more, nothing at all would be as good */
     char error_name[VERIFY_TRADE_ERRORS][VERIFY_TRADE_NAME];
     double budget, spent; /* [s] */
-    size_t run_count;
-    struct verify_trade_run *run; /* [VERIFY_TRADE_RUNS] */
+    size_t run_count, run_room;
+    struct verify_trade_run *run; /* [run_room] */
 };
 
-/* Name, overrides and hash of the scene, and room for the runs. */
+/* Name, overrides and hash of the scene. */
 bool verify_trade_begin(const struct solver_scene *scene, struct verify_trade *trade, struct solver_error *error);
 void verify_trade_free(struct verify_trade *trade);
+/* Room for so many runs more; those there are may move. At most VERIFY_TRADE_RUNS in all. */
+bool verify_trade_reserve(struct verify_trade *trade, size_t more, struct solver_error *error);
 /* Of a scene as loaded: changes with its text, and with what the command line overrides. */
 uint64_t verify_trade_hash(const struct solver_scene *scene);
 uint64_t verify_trade_hash_bytes(uint64_t hash, const void *bytes, size_t size);

@@ -236,8 +236,7 @@ static bool read_all(struct reader *reader, size_t size, struct verify_trade *tr
                            reader->path);
     }
     trade->overrides = calloc(size, 1);
-    trade->run = calloc(VERIFY_TRADE_RUNS, sizeof *trade->run);
-    if (trade->overrides == NULL || trade->run == NULL) {
+    if (trade->overrides == NULL) {
         return solver_fail(reader->error, SOLVER_NO_MEMORY, "%s: no memory for the study", reader->path);
     }
     if (!check_sum(reader, size)) {
@@ -255,8 +254,8 @@ static bool read_all(struct reader *reader, size_t size, struct verify_trade *tr
         return wrong(reader, "a hash of 16 digits and an error that has a column");
     }
     for (char *line = next_line(reader); line != NULL; line = next_line(reader)) {
-        if (trade->run_count == VERIFY_TRADE_RUNS) {
-            return wrong(reader, "at most 20000 runs");
+        if (!verify_trade_reserve(trade, 1, reader->error)) {
+            return false;
         }
         if (!read_run(reader, line, trade)) {
             return false;

@@ -77,10 +77,7 @@ static bool spell(const struct choice *choice, struct verify_trade_run *run)
 
 static struct verify_trade_run *next_run(struct verify_trade *trade, struct solver_error *error)
 {
-    if (trade->run_count == VERIFY_TRADE_RUNS) {
-        (void)solver_fail(error, SOLVER_BAD_INPUT,
-                          "more than %d runs: fix some keys by --set, or name the values to try by --vary",
-                          (int)VERIFY_TRADE_RUNS);
+    if (!verify_trade_reserve(trade, 1, error)) {
         return NULL;
     }
     struct verify_trade_run *run = &trade->run[trade->run_count];
@@ -208,6 +205,9 @@ bool verify_trade_promote(struct verify_trade *trade, size_t level, struct solve
     size_t to = trade->run_count, from = to;
     while (from > 0 && trade->run[from - 1].n == trade->level[level - 1]) {
         from--;
+    }
+    if (!verify_trade_reserve(trade, to - from, error)) { /* so that none moves below */
+        return false;
     }
     for (size_t i = from; i < to; i++) {
         const struct verify_trade_run *before = &trade->run[i];

@@ -61,6 +61,7 @@ static void begin(void)
         .name = "plain", .title = "plain", .oracle = "some", .text = "text", .overrides = "A=1\nB=2\n"};
     verify_trade_free(&trade);
     CU_ASSERT_TRUE_FATAL(verify_trade_begin(&scene, &trade, &error));
+    CU_ASSERT_TRUE_FATAL(verify_trade_reserve(&trade, 32, &error));
     trade.error_count = 2;
     trade.relative = true;
     strcpy(trade.error_name[0], "p");
