@@ -85,8 +85,12 @@ def main():
     assert page.points >= 2, f"{page.points} points plotted"
     profiles = [lines for lines in page.lines if lines and lines[0] == "exact" and "finer" in lines]
     assert len(profiles) == int(panels), f"{len(profiles)} profiles: {page.lines}"
+    levels = words[words.index("--levels") + 1].count(",") + 1
     for lines in profiles:
-        assert lines == ["exact", "finer", "finest", "finer", "finest"], f"a profile has {lines}"
+        assert lines == ["exact"] + 2 * ["fine", "finer", "finest"][-levels:], f"a profile has {lines}"
+    for heading in ("Orders of the last two pairs of levels", "Figures extrapolated"):
+        there = f"<h2>{heading}</h2>" in text
+        assert there == (levels > 2 and ("Figures" not in heading or "<h2>Figures measured" in text)), heading
     assert ["exact"] * 3 + ["kinetic", "strain", "total"] in page.lines, "energies over time"
     assert ["exact", "finest"] in page.lines, "displacements over time"
     shown = re.sub("base64,[^\"]*", "", text.split("<h2>Scene</h2>")[0])

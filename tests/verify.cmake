@@ -144,8 +144,9 @@ assay_test(render-another-field LABELS image COMMAND sh -c
    ! cmp -s test-out/field/swinging-cube.png test-out/field/u.png")
 
 set(html ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/study_html.py ${assay})
-assay_test(report-html LABELS gate COMMAND ${html} test-out/report-html 0 swinging-cube --levels 8,12)
-assay_test(report-html-profiles LABELS gate COMMAND ${html} test-out/report-profiles 6 bimaterial-wave --levels 100,200)
+assay_test(report-html LABELS gate COMMAND ${html} test-out/report-html 0 swinging-cube --levels 8,10,12)
+assay_test(report-html-profiles LABELS gate COMMAND ${html} test-out/report-profiles 6 bimaterial-wave --levels 50,100,200)
+assay_test(report-html-two-levels LABELS gate COMMAND ${html} test-out/report-two-levels 6 bimaterial-wave --levels 100,200)
 
 # Of a configuration that no gate is meant for, the report says so, and that published figures are of another problem.
 assay_test(general-bounds-are-named LABELS gate COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 0
