@@ -29,7 +29,8 @@ function(assay_mutate name)
   set(mutant ${CMAKE_CURRENT_SOURCE_DIR}/mutants/${name}.mutant)
   set(broken ${CMAKE_BINARY_DIR}/mutants/${name}/${source})
   set(script ${CMAKE_CURRENT_SOURCE_DIR}/mutants/mutate.py)
-  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/mutants/${name}/solver)
+  get_filename_component(folder ${broken} DIRECTORY)
+  file(MAKE_DIRECTORY ${folder})
   add_custom_command(OUTPUT ${broken} VERBATIM DEPENDS ${script} ${mutant} ${CMAKE_SOURCE_DIR}/${source}
     COMMAND ${Python3_EXECUTABLE} ${script} ${CMAKE_SOURCE_DIR} ${mutant} ${broken})
   # Objects of several libraries come from one file: it must be there before the first of them is compiled.
@@ -86,10 +87,13 @@ function(assay_unit_mutant name unit test)
   set(libraries assay_solver)
   if(through MATCHES "_dim\\.c$")
     set(libraries assay_solver_1d assay_solver_2d assay_solver_3d)
+  elseif(through MATCHES "^verify/")
+    set(libraries assay_verify)
   endif()
   assay_mutate(${name} ${libraries})
   add_executable(mutant_${name} ${objects} unit/${unit}.c unit/unit.c)
-  target_link_libraries(mutant_${name} PRIVATE assay_solver PkgConfig::CUNIT)
+  string(REGEX MATCH "^[a-z]+" room ${unit})
+  target_link_libraries(mutant_${name} PRIVATE assay_${room} PkgConfig::CUNIT)
   assay_test(mustfail-${name} LABELS unit mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/mustfail_unit.sh ${test}
     $<TARGET_FILE:test_${unit}> $<TARGET_FILE:mutant_${name}>)
 endfunction()
@@ -132,6 +136,9 @@ assay_unit_mutant(angular-inertia-sign solver_run_angular "every integrator, and
 assay_unit_mutant(angular-load-impulse solver_run_angular "loads turn the body")
 assay_unit_mutant(plastic-forgotten solver_run_plastic "energy balance")
 assay_unit_mutant(ulsph-pair-volumes solver_run_momentum "linear momentum over 1000 steps, 2D")
+assay_unit_mutant(index-without-safety verify_grid_convergence "a known limit")
+assay_unit_mutant(front-of-cost-alone verify_trade "fronts")
+assay_unit_mutant(study-without-sum verify_trade "damage")
 
 # A mutant whose text is no longer in the source is an error: here, in a source that is broken already.
 assay_test(mustfail-rotten-mutant LABELS mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 1

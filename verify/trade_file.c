@@ -22,7 +22,9 @@ static void write_head(FILE *file, const struct verify_trade *trade)
 {
     (void)fprintf(file, "%s\nscene\t%s\nhash\t%016" PRIx64 "\noverrides\t", magic, trade->scene, trade->hash);
     for (const char *c = trade->overrides; *c != '\0'; c++) {
-        (void)fputc(*c == '\n' ? ' ' : *c, file);
+        if (*c != '\n' || c[1] != '\0') {
+            (void)fputc(*c == '\n' ? ' ' : *c, file);
+        }
     }
     (void)fprintf(file, "\nerror\t%s\n%s", trade->error_name[trade->chosen], fixed_columns);
     for (size_t i = 0; i < trade->error_count; i++) {

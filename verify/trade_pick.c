@@ -48,9 +48,9 @@ static bool is_of(const struct verify_trade *trade, const struct solver_scene *s
     }
     return trade->hash == verify_trade_hash(scene) ||
            solver_fail(error, SOLVER_BAD_INPUT,
-                       "%s: the scene has changed since the study, or other keys are overridden than then (--set %s); "
-                       "make another: assay trade %s",
-                       path, trade->overrides[0] != '\0' ? trade->overrides : "of none", scene->name);
+                       "%s: the scene has changed since the study, or other keys are overridden than then (%s); make "
+                       "another: assay trade %s",
+                       path, trade->overrides[0] != '\0' ? trade->overrides : "none", scene->name);
 }
 
 static bool find_study(const struct verify_options *options, const struct solver_scene *scene, char path[VERIFY_PATH],

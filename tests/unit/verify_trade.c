@@ -293,7 +293,7 @@ static void round_trip(void)
     CU_ASSERT_TRUE_FATAL(verify_trade_write(&trade, file, &error));
     CU_ASSERT_TRUE_FATAL(verify_trade_read(file, &read, &error));
     CU_ASSERT_STRING_EQUAL(read.scene, "plain");
-    CU_ASSERT_STRING_EQUAL(read.overrides, "A=1 B=2 ");
+    CU_ASSERT_STRING_EQUAL(read.overrides, "A=1 B=2");
     CU_ASSERT_EQUAL(read.hash, trade.hash);
     CU_ASSERT_EQUAL(read.chosen, 1);
     CU_ASSERT_EQUAL(read.error_count, 2);
