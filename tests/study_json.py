@@ -102,6 +102,11 @@ def check_extrapolated(name, figure, levels):
     demand(math.isclose(figure["extrapolated"], f1 + change, rel_tol=1e-9), f"limit of figure {name}")
     demand(math.isclose(figure["uncertainty"], 1.25 * abs(change), rel_tol=1e-9), f"uncertainty of figure {name}")
     demand(math.isclose(figure["index"], 1.25 * abs(change / f1), rel_tol=1e-9), f"index of figure {name}")
+    errors = [level["figures"][name]["error"] for level in levels[-3:]]
+    orders = [math.log(errors[0] / errors[1]) / math.log(h3 / h2), math.log(errors[1] / errors[2]) / math.log(h2 / h1)]
+    if len(levels) == 3:
+        settled = min(orders) > 0 and abs(orders[0] - orders[1]) <= 0.1 * orders[1] and abs(figure["ratio"] - 1) <= 0.1
+        demand(figure["state"] == ("one order" if settled else "unsettled"), f"figure {name} is {figure['state']}: {orders}")
     demand(math.isclose(figure["ratio"], abs(f1 / f2), rel_tol=1e-6), f"ratio of figure {name}")
 
 

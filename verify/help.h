@@ -76,7 +76,9 @@
     "  pairs and bytes are the same in every study that was not cut; times are the machine's.\n"                       \
     "\n"                                                                                                               \
     "ERROR  The fronts are of one error, by default the first that assay verify shows; --error names another, as\n"    \
-    "  --error u or --error \"figure period\".\n"                                                                      \
+    "  --error u or --error \"figure period\". That of one number, as a figure is, can be small by accident, where "   \
+    "it\n"                                                                                                             \
+    "  changes its sign; a norm of a field cannot.\n"                                                                  \
     "\n"                                                                                                               \
     "JSON    scene, oracle, error, overrides, budget, spent, axes {KEY: [value]}, levels [n], and\n"                   \
     "        runs        [{configuration {KEY: value}, variant, n, own, particles, pairs, steps, evaluations,\n"       \

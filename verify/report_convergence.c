@@ -24,14 +24,22 @@ static enum verify_convergence of_error(const struct verify_study *study, size_t
     return verify_error_convergence(study->level_count, h, e, order);
 }
 
+/* Three levels have one order alone to show, but where the exact value is known its error has two: if these have not
+ * settled, neither has that. */
 static struct verify_extrapolation of_figure(const struct verify_study *study, size_t which)
 {
-    double h[SOLVER_LEVELS] = {0}, f[SOLVER_LEVELS] = {0};
+    double h[SOLVER_LEVELS] = {0}, f[SOLVER_LEVELS] = {0}, e[SOLVER_LEVELS] = {0}, order[2];
     spacings(study, h);
     for (size_t i = 0; i < study->level_count; i++) {
         f[i] = study->level[i].figure[which].measured;
+        e[i] = study->level[i].figure[which].error;
     }
-    return verify_extrapolate(study->level_count, h, f);
+    struct verify_extrapolation found = verify_extrapolate(study->level_count, h, f);
+    enum verify_convergence of_errors = verify_error_convergence(study->level_count, h, e, order);
+    if (found.state == VERIFY_ONE_ORDER && of_errors != VERIFY_ASYMPTOTIC && of_errors != VERIFY_UNMEASURED) {
+        found.state = VERIFY_UNSETTLED;
+    }
+    return found;
 }
 
 /* Whether the exact value is where the levels say that the limit is: "yes", "no", or "-" where one of them is not
@@ -124,8 +132,8 @@ void verify_html_extrapolation(FILE *file, const struct verify_study *study)
                       verify_convergence_meaning(found.state));
     }
     (void)fprintf(file, "</table>\n<p class=\"note\">Richardson extrapolation of the three finest levels, and grid "
-                        "convergence index with a safety factor of 1.25 (Roache 1994; Celik et al. 2008); it knows "
-                        "nothing of the exact value.</p>\n");
+                        "convergence index with a safety factor of 1.25 (Roache 1994; Celik et al. 2008); neither "
+                        "knows anything of the exact value.</p>\n");
 }
 
 static void json_error(FILE *file, const struct verify_study *study, size_t which)
