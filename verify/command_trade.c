@@ -100,11 +100,15 @@ static void show_progress(const struct work *work, size_t done, size_t all, doub
     }
 }
 
-/* Runs [from, to) of one level until the deadline. */
-static bool run_level(struct work *work, size_t from, size_t to, double deadline, struct solver_error *error)
+/* The runs of a level, which are those from `from` on, until the deadline. */
+static bool run_level(struct work *work, size_t level, size_t from, double deadline, struct solver_error *error)
 {
     struct verify_trade *trade = &work->trade;
     double begun = verify_now();
+    size_t to = trade->run_count, done = 0, all = 0;
+    for (size_t i = from; i < to; i++) {
+        all += trade->run[i].why[0] == '\0';
+    }
     for (size_t i = from; i < to; i++) {
         struct verify_trade_run *run = &trade->run[i];
         if (run->why[0] != '\0') {
@@ -112,7 +116,7 @@ static bool run_level(struct work *work, size_t from, size_t to, double deadline
         }
         bool first = i == 0; /* the scene's own, without which there is nothing to compare with */
         work->trader.deadline = first ? INFINITY : deadline;
-        show_progress(work, i - from, to - from, begun, run->n);
+        show_progress(work, done++, all, begun, run->n);
         if (!first && verify_now() > deadline) {
             (void)snprintf(run->why, sizeof run->why, "the budget was spent before its turn");
         } else if (!verify_trade_measure(&work->trader, run, error)) {
@@ -127,7 +131,7 @@ static bool run_level(struct work *work, size_t from, size_t to, double deadline
         (void)fprintf(stderr, "\r\033[K");
     }
     trade->spent = verify_now() - work->begun;
-    verify_trade_print_level(stdout, trade, from, to);
+    verify_trade_print_level(stdout, trade, trade->level[level], from, to);
     return true;
 }
 
@@ -143,7 +147,7 @@ static bool run_levels(struct work *work, struct solver_error *error)
         if (level > 0 && !verify_trade_promote(trade, level, error)) {
             return false;
         }
-        if (!run_level(work, from, trade->run_count, last ? end : now + 0.5 * (end - now), error)) {
+        if (!run_level(work, level, from, last ? end : now + 0.5 * (end - now), error)) {
             return false;
         }
         from = trade->run_count;
@@ -159,7 +163,7 @@ static struct verify_trade_run *next_to_time(struct verify_trade *trade)
     double least = INFINITY;
     for (size_t i = 0; i < trade->run_count; i++) {
         struct verify_trade_run *run = &trade->run[i];
-        if (run->end != VERIFY_MEASURED || run->spread) {
+        if (run->end != VERIFY_MEASURED || run->repeated) {
             continue;
         }
         double bound = run->error[trade->chosen], seconds = run->cost[VERIFY_SECONDS];
@@ -186,7 +190,7 @@ static bool repeat(struct work *work, struct solver_error *error)
                           verify_now() - work->begun, trade->budget);
         }
         double wanted = fmin(MANY_REPEATS, fmax(FEW_REPEATS, time_to_repeat / next->cost[VERIFY_SECONDS]));
-        next->spread = true;
+        next->repeated = true;
         if (!verify_trade_time(&work->trader, next, next->threads, (int)wanted, error) ||
             (work->scene->threads == 0 && !verify_trade_time(&work->trader, next, 0, (int)wanted, error))) {
             return false;

@@ -37,13 +37,13 @@ void verify_trade_print_begin(FILE *file, const struct verify_trade *trade, cons
     (void)fflush(file);
 }
 
-void verify_trade_print_level(FILE *file, const struct verify_trade *trade, size_t from, size_t to)
+void verify_trade_print_level(FILE *file, const struct verify_trade *trade, int n, size_t from, size_t to)
 {
     size_t ended[VERIFY_LEFT_OUT + 1] = {0};
     for (size_t i = from; i < to; i++) {
         ended[trade->run[i].end]++;
     }
-    (void)fprintf(file, "%6d %6zu %9zu %8zu %11zu %9zu %9.1f\n", trade->run[from].n, to - from, ended[VERIFY_MEASURED],
+    (void)fprintf(file, "%6d %6zu %9zu %8zu %11zu %9zu %9.1f\n", n, to - from, ended[VERIFY_MEASURED],
                   ended[VERIFY_REFUSED], ended[VERIFY_BROKE], ended[VERIFY_LEFT_OUT], trade->spent);
     (void)fflush(file);
 }

@@ -10,8 +10,8 @@
 /* What is about to be done. */
 void verify_trade_print_begin(FILE *file, const struct verify_trade *trade, const struct solver_scene *scene,
                               const struct verify_truth *truth);
-/* A line on a level that is done, its runs being [from, to). */
-void verify_trade_print_level(FILE *file, const struct verify_trade *trade, size_t from, size_t to);
+/* A line on level n that is done, its runs being [from, to): none, where nothing was measured at the level before. */
+void verify_trade_print_level(FILE *file, const struct verify_trade *trade, int n, size_t from, size_t to);
 /* The fronts, what was not measured and why, and recommendations. */
 void verify_trade_print_end(FILE *file, const struct verify_trade *trade);
 

@@ -139,6 +139,9 @@ void verify_trade_short(const struct verify_trade *trade, const struct verify_tr
         }
         word += whole;
     }
+    if (used == 0) { /* nothing varies */
+        used = (size_t)snprintf(text, VERIFY_TRADE_WORDS, "%s", run->words);
+    }
     if (run->variant[0] != '\0' && used < VERIFY_TRADE_WORDS) {
         (void)snprintf(text + used, VERIFY_TRADE_WORDS - used, "%s(%s)", used > 0 ? " " : "", run->variant);
     }

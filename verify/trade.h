@@ -48,7 +48,7 @@ struct verify_trade_run {
     double cost[VERIFY_COSTS];
     int threads, repeats; /* of the best time */
     double noise;         /* second fastest over fastest repeat, less 1; NaN: timed once */
-    bool spread;          /* timed with more threads as well */
+    bool repeated;        /* timed again, with more threads as well */
     double error[VERIFY_TRADE_ERRORS];
     bool front[VERIFY_COSTS];
 };

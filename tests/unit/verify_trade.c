@@ -106,6 +106,9 @@ static void choices(void)
     CU_ASSERT_EQUAL(verify_trade_decades(&trade, 0, decade, 16), 6);
     CU_ASSERT_DOUBLE_EQUAL(decade[0], 0.1, 1e-12);
     CU_ASSERT_DOUBLE_EQUAL(decade[5], 1e-6, 1e-18);
+    trade.run_count = 1;
+    verify_trade_short(&trade, &trade.run[0], text);
+    CU_ASSERT_STRING_EQUAL(text, trade.run[0].words); /* nothing varies */
     CU_ASSERT_TRUE(verify_trade_word("a=1 bc=d", "bc", value) && strcmp(value, "d") == 0);
     CU_ASSERT_FALSE(verify_trade_word("a=1 bc=d", "c", value));
     CU_ASSERT_FALSE(verify_trade_word("a=1 bc=d", "b", value));
