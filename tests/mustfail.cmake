@@ -138,7 +138,7 @@ assay_unit_mutant(plastic-forgotten solver_run_plastic "energy balance")
 assay_unit_mutant(ulsph-pair-volumes solver_run_momentum "linear momentum over 1000 steps, 2D")
 assay_unit_mutant(index-without-safety verify_grid_convergence "a known limit")
 assay_unit_mutant(front-of-cost-alone verify_trade "fronts")
-assay_unit_mutant(study-without-sum verify_trade "damage")
+assay_unit_mutant(study-without-sum verify_trade_file "damage")
 
 # A mutant whose text is no longer in the source is an error: here, in a source that is broken already.
 assay_test(mustfail-rotten-mutant LABELS mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 1
