@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double round_off = 1e-10;
-
 /* Entries of the evolved block that are numbers rather than padding. *index is the caller's to free. */
 static bool unknowns(const struct solver_state *state, size_t dim, size_t **index, size_t *count,
                      struct solver_error *error)
@@ -27,9 +25,10 @@ static bool unknowns(const struct solver_state *state, size_t dim, size_t **inde
         }
     }
     if (*count > SOLVER_SPECTRUM_LARGEST) {
-        return solver_fail(error, SOLVER_BAD_INPUT,
-                           "a spectrum of %zu unknowns: at most %d are taken, their number decides the work by its cube",
-                           *count, (int)SOLVER_SPECTRUM_LARGEST);
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "a spectrum of %zu unknowns: at most %d are taken, their number decides the work by its cube", *count,
+            (int)SOLVER_SPECTRUM_LARGEST);
     }
     return true;
 }
@@ -124,8 +123,7 @@ static bool eigenvalues(double *matrix, size_t count, double complex *eigenvalue
     return ok;
 }
 
-bool solver_run_spectrum(struct solver_run *run, double complex **eigenvalue, size_t *count,
-                         struct solver_error *error)
+bool solver_run_spectrum(struct solver_run *run, double complex **eigenvalue, size_t *count, struct solver_error *error)
 {
     size_t *index = NULL;
     double *matrix = NULL;
@@ -165,17 +163,18 @@ double complex solver_stability_function(const struct solver_integrator *integra
 }
 
 static bool stable(const struct solver_integrator *integrator, const double complex *eigenvalue, size_t count,
-                   double dt)
+                   double dt, double growth)
 {
     for (size_t i = 0; i < count; i++) {
-        if (cabs(solver_stability_function(integrator, eigenvalue[i] * dt)) > 1.0 + round_off) {
+        if (cabs(solver_stability_function(integrator, eigenvalue[i] * dt)) > 1.0 + growth) {
             return false;
         }
     }
     return true;
 }
 
-double solver_stable_step(const struct solver_integrator *integrator, const double complex *eigenvalue, size_t count)
+double solver_stable_step(const struct solver_integrator *integrator, const double complex *eigenvalue, size_t count,
+                          double growth)
 {
     double fastest = 0.0;
     for (size_t i = 0; i < count; i++) {
@@ -188,14 +187,14 @@ double solver_stable_step(const struct solver_integrator *integrator, const doub
     while (fails * fastest < 100.0 && (fails == 0.0 || holds > 0.0)) { /* scan: stable regions need not be convex */
         double next = holds + 0.01 / fastest;
         fails = next;
-        if (!stable(integrator, eigenvalue, count, next)) {
+        if (!stable(integrator, eigenvalue, count, next, growth)) {
             break;
         }
         holds = next;
     }
     while (fails - holds > 1e-6 * fails && fails > 1e-9 / fastest) {
         double middle = 0.5 * (holds + fails);
-        if (stable(integrator, eigenvalue, count, middle)) {
+        if (stable(integrator, eigenvalue, count, middle, growth)) {
             holds = middle;
         } else {
             fails = middle;

@@ -21,8 +21,10 @@ bool solver_run_spectrum(struct solver_run *run, double complex **eigenvalue, si
 /* R(z): what one step makes of the solution of y' = (z / dt) y. */
 double complex solver_stability_function(const struct solver_integrator *integrator, double complex z);
 
-/* The largest dt [s] with |R(lambda dt)| <= 1 for all of these eigenvalues and all shorter steps, to 1e-6 of itself;
- * 0: even the shortest step grows. A growth of 1e-10 per step is round-off of the eigenvalues. */
-double solver_stable_step(const struct solver_integrator *integrator, const double complex *eigenvalue, size_t count);
+/* The largest dt [s] such that at it, and at all shorter steps, |R(lambda dt)| <= 1 + growth for all of these
+ * eigenvalues; to 1e-6 of itself. Zero where even the shortest step grows by more. Those of defective matrices are off
+ * by 1e-8 of the largest, so that a growth below 1e-6 cannot be told from none. */
+double solver_stable_step(const struct solver_integrator *integrator, const double complex *eigenvalue, size_t count,
+                          double growth);
 
 #endif

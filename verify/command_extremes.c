@@ -20,8 +20,11 @@ static void print(const struct verify_extreme_row *row, bool judged, bool holds)
     if (!isnan(row->fails)) {
         (void)snprintf(fails, sizeof fails, "%.4g", row->fails);
     }
-    (void)printf("%-4s  %-34s %-34s %12.5g %12s %-8s %s\n", !judged ? "" : holds ? "ok" : "FAIL", row->what,
-                 row->quantity, row->value, fails, row->unit, row->note);
+    (void)printf("%-4s  %-34s %-34s %12.5g %12s %-8s %s\n",
+                 !judged ? ""
+                 : holds ? "ok"
+                         : "FAIL",
+                 row->what, row->quantity, row->value, fails, row->unit, row->note);
     (void)fflush(stdout);
 }
 
@@ -68,7 +71,8 @@ static int refuse(const char *word)
     const char *names[32];
     char list[256] = "";
     size_t count = 0;
-    for (const struct verify_extreme *extreme = verify_extremes_table(); extreme->name != NULL && count < 32; extreme++) {
+    for (const struct verify_extreme *extreme = verify_extremes_table(); extreme->name != NULL && count < 32;
+         extreme++) {
         size_t used = strlen(list);
         (void)snprintf(list + used, sizeof list - used, "%s%s", count > 0 ? ", " : "", extreme->name);
         names[count++] = extreme->name;

@@ -44,10 +44,9 @@ static bool turn(const struct verify_extremes *in, const char *what, const char 
         char note[80];
         (void)snprintf(note, sizeof note, "%zu steps, strain about %.1g", solver_run_facts(trial.run).steps,
                        turning * turning / 8.0);
-        tell(in, what, "angular momentum, relative change", fabs(last->angular[2] / first->angular[2] - 1.0),
-             -INFINITY, 1e-10, note);
-        tell(in, what, "energy, relative gain", energy(last) / energy(first) - 1.0, -INFINITY, 1e-10, note);
-        tell(in, what, "energy kept", energy(last) / energy(first), -INFINITY, INFINITY,
+        tell(in, what, "angular momentum, relative change", fabs(last->angular[2] / first->angular[2] - 1.0), -INFINITY,
+             1e-10, note);
+        tell(in, what, "energy kept", energy(last) / energy(first), 0.9, 1.0 + 1e-10,
              "the rest goes while the body settles to its spin");
     }
     verify_trial_close(&trial);
@@ -125,12 +124,11 @@ static bool vibrate(const struct verify_extremes *in, const char *what, const ch
     }
     if (ok) {
         char note[120];
-        (void)snprintf(note, sizeof note, "over the first %.0f periods, of %.0f in %d steps", since, t * c / 2.0,
-                       (int)STEPS);
-        tell(in, what, "frequency, relative error", omega / (M_PI * c) - 1.0, -0.01, 0.01, note);
-        tell(in, what, "amplitude kept", early, -INFINITY, 1.0 + 1e-10, note);
-        (void)snprintf(note, sizeof note, "after %.0f periods", t * c / 2.0);
-        tell(in, what, "amplitude kept", hypot(v, s) / first, -INFINITY, 1.0 + 1e-10, note);
+        (void)snprintf(note, sizeof note, "%.0f periods; as much phase drifts per cycle", since);
+        tell(in, what, "frequency error, 2000 steps", omega / (M_PI * c) - 1.0, -0.01, 0.01, note);
+        tell(in, what, "amplitude kept, 2000 steps", early, -INFINITY, 1.0 + 1e-10, "never more than there was");
+        (void)snprintf(note, sizeof note, "%.0f periods", t * c / 2.0);
+        tell(in, what, "amplitude kept, 1e6 steps", hypot(v, s) / first, -INFINITY, 1.0 + 1e-10, note);
     }
     verify_trial_close(&trial);
     return ok;

@@ -103,8 +103,8 @@ static bool compare(const struct verify_extremes *in, int dim, const char *evolv
     verify_trial_close(&trial);
     for (size_t i = 0; ok && i < count; i++) {
         struct outcome other = {0};
-        struct verify_extreme_row row = {.quantity = "largest difference / strain", .fails = NAN, .unit = "-",
-                                         .least = -INFINITY};
+        struct verify_extreme_row row = {
+            .quantity = "largest difference / strain", .fails = NAN, .unit = "-", .least = -INFINITY};
         ok = verify_trial_open(in, "free-block", &trial, error, "d=%d evolved=%s %s %s", dim, evolved, common,
                                variant[i].settings) &&
              outcome_of(&trial, variant[i].angle, &other, error);

@@ -16,6 +16,12 @@ static const struct verify_extreme table[] = {
      verify_extreme_alternating},
     {"spin", "a body that turns a thousand times", verify_extreme_spin},
     {"vibration", "a million steps of a free vibration", verify_extreme_vibration},
+    {"poisson", "Poisson's ratio towards 0.5 and -1", verify_extreme_poisson},
+    {"stretch", "held bodies stretched and compressed along one axis", verify_extreme_stretch},
+    {"perturbed", "clouds whose particles are moved at random, by a share of the spacing", verify_extreme_perturbed},
+    {"impact", "bodies that hit a rigid wall", verify_extreme_impact},
+    {"contrast", "density and stiffness that jump a million times within a bar", verify_extreme_contrast},
+    {"small", "the smallest clouds and the thinnest bodies: a right answer or a refusal", verify_extreme_small},
     {NULL, NULL, NULL},
 };
 
@@ -67,8 +73,7 @@ bool verify_trial_open(const struct verify_extremes *in, const char *scene, stru
     }
     memcpy(override + count, in->options->override, in->options->override_count * sizeof *override);
     count += in->options->override_count;
-    bool ok = verify_scene_find(scene, path, error) &&
-              solver_scene_load(path, override, count, &trial->scene, error) &&
+    bool ok = verify_scene_find(scene, path, error) && solver_scene_load(path, override, count, &trial->scene, error) &&
               verify_run_create(trial->scene, &trial->run, error);
     if (!ok) {
         verify_trial_close(trial);

@@ -69,5 +69,11 @@ bool verify_extreme_place(const struct verify_extremes *in, struct solver_error 
 bool verify_extreme_alternating(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_spin(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_vibration(const struct verify_extremes *in, struct solver_error *error);
+bool verify_extreme_poisson(const struct verify_extremes *in, struct solver_error *error);
+bool verify_extreme_stretch(const struct verify_extremes *in, struct solver_error *error);
+bool verify_extreme_perturbed(const struct verify_extremes *in, struct solver_error *error);
+bool verify_extreme_impact(const struct verify_extremes *in, struct solver_error *error);
+bool verify_extreme_contrast(const struct verify_extremes *in, struct solver_error *error);
+bool verify_extreme_small(const struct verify_extremes *in, struct solver_error *error);
 
 #endif

@@ -4,9 +4,9 @@ title = "Free block"
 source = "of this program"
 
 -- angle: the block is turned by it about the z axis from the start, rad; random: share of velocities without any order;
--- held: all faces are clamped; alternate: share of velocities that alternate from particle to particle; turn: angular velocity over c / length
+-- held: all faces are clamped; flight: velocity of the whole along all axes, over c; impact: the same against a wall; alternate: share of velocities that alternate from particle to particle; turn: angular velocity over c / length
 parameters = { d = 2, length = 1, modulus = 1e7, density = 1e3, origin = 0, angle = 0, stretch = 1,
-               speed = 1e-3, random = 0, alternate = 0, turn = 0, held = 0, thickness = 1, periods = 1 }
+               speed = 1e-3, random = 0, alternate = 0, turn = 0, held = 0, flight = 0, impact = 0, thickness = 1, periods = 1 }
 
 -- As many numbers as there are dimensions.
 local function first(a, b, c)
@@ -32,6 +32,7 @@ for i, axis in ipairs { "X", "Y", "Z" } do
     if i <= d and held == 1 then kinds[axis .. "0"], kinds[axis .. "1"] = "clamped", "clamped" end
 end
 faces = kinds
+if impact > 0 then rigid_wall = { point = {first(origin, origin, origin)}, normal = {first(1, 0, 0)} } end
 
 local cos, sin = math.cos, math.sin
 local function noise(X, Y, Z, k) -- in [-1, 1], without any order
@@ -47,7 +48,8 @@ local function motion(X, Y, Z)
     local u = smooth * cos(math.pi * x) * cos(2 * math.pi * y) + random * noise(x, y, z, 1) + alternate * sign
     local v = smooth * cos(2 * math.pi * x) * cos(math.pi * y) + random * noise(x, y, z, 2) + alternate * sign
     local w = smooth * cos(math.pi * z) * cos(math.pi * x) + random * noise(x, y, z, 3) + alternate * sign
-    return speed * c * u - turn * c * (y - 0.5), speed * c * v + turn * c * (x - 0.5), speed * c * w
+    return c * (speed * u - turn * (y - 0.5) + flight - impact), c * (speed * v + turn * (x - 0.5) + flight),
+           c * (speed * w + flight)
 end
 
 initial = {
@@ -62,6 +64,12 @@ initial = {
         local u, v, w = motion(X, Y, d == 2 and origin or Z)
         local a, b = turned(u, v)
         return first(a, b, w)
+    end,
+    F = function() -- row by row
+        local r, q = cos(angle), sin(angle)
+        if d == 1 then return stretch end
+        if d == 2 then return r * stretch, -q, q * stretch, r end
+        return r * stretch, -q, 0, q * stretch, r, 0, 0, 0, 1
     end,
 }
 history = 200
