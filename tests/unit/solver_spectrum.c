@@ -29,7 +29,9 @@ static void stable_steps_are_the_known_limits(void)
     static const struct {
         const char *name;
         double decay, oscillation;
-    } known[] = {{"euler", 2.0, 0.0}, {"tvd-rk2", 2.0, 0.0}, {"ssp-rk3", 2.51274532661833, 1.73205080756888},
+    } known[] = {{"euler", 2.0, 0.0},
+                 {"tvd-rk2", 2.0, 0.0},
+                 {"ssp-rk3", 2.51274532661833, 1.73205080756888},
                  {"rk4", 2.78529356340528, 2.82842712474619}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         const struct solver_integrator *integrator = solver_integrator_find(known[i].name);
