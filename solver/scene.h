@@ -215,7 +215,7 @@ struct solver_scene {
     int n;                     /* spacings along the reference length */
     int levels[SOLVER_LEVELS]; /* values of n for a study, increasing */
     size_t level_count;
-    double perturb; /* random shift of interior particles, as a fraction of the spacing, [0, 0.3] */
+    double perturb; /* random shift of interior particles, as a fraction of the spacing, [0, 0.45] */
     uint64_t seed;
 
     char material_model[SOLVER_NAME];

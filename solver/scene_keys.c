@@ -46,7 +46,7 @@ X("reference_length", NUMBER, AT(reference_length), ABOVE_ZERO, DBL_MAX, 0, "", 
 X("n", RESOLUTION, AT(n), 0, 0, 0, "", NEEDED, "whole number >= 1", "spacings along the reference length")             \
 X("levels", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing whole numbers >= 1",                    \
   "values of n for a convergence study; default: n alone")                                                             \
-X("perturb", NUMBER, AT(perturb), 0, 0.3, 0, "", "0", "number in [0, 0.3]",                                            \
+X("perturb", NUMBER, AT(perturb), 0, 0.45, 0, "", "0", "number in [0, 0.45]",                                            \
   "random shift of interior particles, as a fraction of the spacing")                                                  \
 X("seed", SEED, AT(seed), 0, 0, 0, "", "1", "whole number >= 0", "of the random shift")                                \
 X("material.model", WORD, AT(material_model), 0, 0, 0, "linear-elastic neo-hookean neo-hookean-polyconvex hencky", NEEDED,                    \

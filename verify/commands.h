@@ -17,6 +17,8 @@ int verify_command_compare(const struct verify_options *options);
 int verify_command_bench(const struct verify_options *options);
 int verify_command_judge(const struct verify_options *options);
 int verify_command_oracle(const struct verify_options *options);
+/* `extremes`: see extremes.h. */
+int verify_command_extremes(const struct verify_options *options);
 int verify_command_list(const struct verify_options *options);
 
 /* The program's version, as records and help show it. */

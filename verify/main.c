@@ -112,6 +112,19 @@ static const struct verify_command commands[] = {
      .least = 1,
      .most = 1,
      .run = verify_command_bench},
+    {.name = "extremes",
+     .operands = "[NAME]",
+     .summary = "where each scheme works, and the nearest value at which it fails",
+     .help = "Drives one quantity after the other until runs no longer hold, most by bisection, and prints the last\n"
+             "value that holds beside the nearest that fails, what is to be expected, and why it fails. NAME is one of\n"
+             "cfl, scale, place, alternating, spin, vibration; without it all are measured. --set goes to every run.\n\n"
+             "  assay extremes scale\n"
+             "  assay extremes cfl --json cfl.json\n\n"
+             "Exit code: 0 all bounds hold; 1 one does not; 2 a word or a file is wrong; 3 a run that had to end broke\n"
+             "down.",
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_JSON,
+     .most = 1,
+     .run = verify_command_extremes},
     {.name = "judge",
      .operands = "FILE...",
      .summary = "results of any solver against an oracle, with gates",

@@ -75,7 +75,7 @@ static void bad_keys(void)
         {0, "cfl = 0", 0, "cfl: expected number in (0, 10], got 0"},
         {0, "cfl = 10.1", 0, "cfl: expected number in (0, 10], got 10.1"},
         {0, "support = 0.9", 0, "support: expected number in [1, 4], got 0.9"},
-        {0, "perturb = 0.31", 0, "perturb: expected number in [0, 0.3], got 0.31"},
+        {0, "perturb = 0.46", 0, "perturb: expected number in [0, 0.45], got 0.46"},
         {0, "threads = -1", 0, "threads: expected whole number in [0, 1024], got -1"},
         {0, "seed = -1", 0, "seed: expected whole number >= 0, got -1"},
         {0, "body_force = 9.81", 0, "body_force: expected function(X, Y, Z, t) returning dim numbers, got 9.81"},

@@ -1,0 +1,128 @@
+/* assay extremes: a map of where schemes work, measured row by row. */
+#include "verify/commands.h"
+#include "verify/extremes.h"
+#include "verify/json.h"
+#include "verify/suggest.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* What came of all rows so far. */
+struct tally {
+    FILE *json; /* NULL: none is wanted */
+    size_t rows, judged, failed;
+};
+
+static void print(const struct verify_extreme_row *row, bool judged, bool holds)
+{
+    char fails[24] = "-";
+    if (!isnan(row->fails)) {
+        (void)snprintf(fails, sizeof fails, "%.4g", row->fails);
+    }
+    (void)printf("%-4s  %-34s %-34s %12.5g %12s %-8s %s\n",
+                 !judged ? ""
+                 : holds ? "ok"
+                         : "FAIL",
+                 row->what, row->quantity, row->value, fails, row->unit, row->note);
+    (void)fflush(stdout);
+}
+
+static void write_row(FILE *file, bool first, const char *extreme, const struct verify_extreme_row *row, bool judged,
+                      bool holds)
+{
+    (void)fprintf(file, "%s\n  {", first ? "" : ",");
+    verify_json_text_member(file, "extreme", extreme);
+    (void)fprintf(file, ", ");
+    verify_json_text_member(file, "what", row->what);
+    (void)fprintf(file, ", ");
+    verify_json_text_member(file, "quantity", row->quantity);
+    (void)fprintf(file, ", ");
+    verify_json_text_member(file, "unit", row->unit);
+    (void)fprintf(file, ", ");
+    verify_json_number_member(file, "value", row->value);
+    (void)fprintf(file, ", ");
+    verify_json_number_member(file, "fails", row->fails);
+    (void)fprintf(file, ", ");
+    verify_json_number_member(file, "least", row->least);
+    (void)fprintf(file, ", ");
+    verify_json_number_member(file, "most", row->most);
+    (void)fprintf(file, ", ");
+    verify_json_text_member(file, "note", row->note);
+    (void)fprintf(file, ", \"pass\": %s}", !judged ? "null" : holds ? "true" : "false");
+}
+
+static void take(void *context, const char *extreme, const struct verify_extreme_row *row)
+{
+    struct tally *tally = context;
+    bool judged = isfinite(row->least) || isfinite(row->most) || isnan(row->value);
+    bool holds = verify_extreme_holds(row);
+    print(row, judged, holds);
+    if (tally->json != NULL) {
+        write_row(tally->json, tally->rows == 0, extreme, row, judged, holds);
+    }
+    tally->rows++;
+    tally->judged += judged;
+    tally->failed += judged && !holds;
+}
+
+static int refuse(const char *word)
+{
+    const char *names[32];
+    char list[256] = "";
+    size_t count = 0;
+    for (const struct verify_extreme *extreme = verify_extremes_table(); extreme->name != NULL && count < 32;
+         extreme++) {
+        size_t used = strlen(list);
+        (void)snprintf(list + used, sizeof list - used, "%s%s", count > 0 ? ", " : "", extreme->name);
+        names[count++] = extreme->name;
+    }
+    const char *meant = verify_suggest(word, names, count);
+    struct solver_error error;
+    (void)solver_fail(&error, SOLVER_BAD_INPUT, "there is no extreme \"%.64s\"%s%s; there are %s", word,
+                      meant != NULL ? ", did you mean " : "", meant != NULL ? meant : "", list);
+    return verify_complain(&error);
+}
+
+static bool run(const struct verify_extreme *extreme, struct verify_extremes *in, struct solver_error *error)
+{
+    (void)printf("\n%s: %s\n%-4s  %-34s %-34s %12s %12s\n", extreme->name, extreme->summary, "", "what", "quantity",
+                 "holds", "fails");
+    in->extreme = extreme->name;
+    return extreme->run(in, error);
+}
+
+int verify_command_extremes(const struct verify_options *options)
+{
+    struct solver_error error = {.code = SOLVER_OK};
+    struct tally tally = {.json = NULL};
+    struct verify_extremes in = {.options = options, .take = take, .context = &tally};
+    const char *word = options->operand_count > 0 ? options->operand[0] : NULL;
+    if (word != NULL && verify_extreme_find(word) == NULL) {
+        return refuse(word);
+    }
+    if (options->json != NULL && (tally.json = fopen(options->json, "w")) == NULL) {
+        (void)solver_fail(&error, SOLVER_IO, "%s: cannot be written", options->json);
+        return verify_complain(&error);
+    }
+    if (tally.json != NULL) {
+        (void)fprintf(tally.json, "{\"rows\": [");
+    }
+    bool done = true;
+    for (const struct verify_extreme *extreme = verify_extremes_table(); done && extreme->name != NULL; extreme++) {
+        if (word == NULL || strcmp(word, extreme->name) == 0) {
+            done = run(extreme, &in, &error);
+        }
+    }
+    if (tally.json != NULL) {
+        (void)fprintf(tally.json, "\n], \"pass\": %s}\n", done && tally.failed == 0 ? "true" : "false");
+        if (fclose(tally.json) != 0 && done) {
+            done = solver_fail(&error, SOLVER_IO, "%s: cannot be written", options->json);
+        }
+    }
+    if (!done) {
+        return verify_complain(&error);
+    }
+    (void)printf("\n%zu rows, %zu with bounds, %zu of these fail\n", tally.rows, tally.judged, tally.failed);
+    return tally.failed == 0 ? VERIFY_PASSED : VERIFY_FAILED;
+}

@@ -1,0 +1,75 @@
+/* Materials that meet: a pulse through a welded bar whose second half is heavier and stiffer, or lighter and softer, by
+ * up to a million, against the exact solution. The contrast is bisected up to where the error is that of no contrast no
+ * more, whether because the interface is resolved no longer or because a step is no longer stable. */
+#include "verify/extremes.h"
+
+#include "verify/norms.h"
+#include "verify/truth.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double right = 0.1; /* largest relative L1 error of the stress that still counts as an answer */
+
+struct bar {
+    const struct verify_extremes *in;
+    const char *settings;
+};
+
+static bool right_at(void *with, double contrast, char *note, size_t size)
+{
+    const struct bar *bar = with;
+    struct verify_trial trial;
+    struct verify_truth truth = {.kind = NULL};
+    struct solver_output out;
+    struct solver_error error = {.code = SOLVER_OK};
+    double all[VERIFY_STATE_ERRORS];
+    bool ran = verify_trial_open(bar->in, "bimaterial-wave", &trial, &error, "n=416 threads=1 E2=%.17g rho2=%.17g %s",
+                                 79.1e9 * contrast, 2785.0 * contrast, bar->settings) &&
+               verify_trial_finish(&trial, &error) && solver_run_output(trial.run, &out, &error) &&
+               verify_truth_create(trial.scene, &truth, &error) &&
+               verify_norms_state(&out, truth.kind, truth.oracle, all, &error);
+    double found = ran ? all[verify_error_find("sigma_l1")] : NAN;
+    bool holds = ran && found <= right;
+    if (!ran) {
+        const char *text = strstr(error.text, ".lua: ");
+        (void)snprintf(note, size, "beyond: %.180s", text != NULL ? text + 6 : error.text);
+    } else if (!holds) {
+        (void)snprintf(note, size, "beyond, the relative L1 error of the stress is %.2g", found);
+    }
+    verify_truth_free(&truth);
+    verify_trial_close(&trial);
+    return holds;
+}
+
+bool verify_extreme_contrast(const struct verify_extremes *in, struct solver_error *error)
+{
+    static const struct {
+        const char *what, *settings;
+        double up, down; /* as far as it has to come */
+    } schemes[] = {
+        {"upwind sbp4 rk4", "scheme=upwind", 100.0, 1e-2},
+        {"upwind sbp2 tvd-rk2", "scheme=upwind stencil=sbp2 integrator=tvd-rk2 cfl=0.3", 1e3, 1e-6},
+        {"jst sbp2 tvd-rk2", "scheme=jst stencil=sbp2 integrator=tvd-rk2 cfl=0.3", 10.0, 0.1},
+        {"ulsph tvd-rk2", "scheme=ulsph", 10.0, 0.1},
+    };
+    (void)error;
+    for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++) {
+        for (int down = 0; down < 2; down++) {
+            struct bar bar = {in, schemes[i].settings};
+            struct verify_extreme_row row = {
+                .unit = "-", .least = down ? -INFINITY : schemes[i].up, .most = down ? schemes[i].down : INFINITY};
+            (void)snprintf(row.what, sizeof row.what, "%s", schemes[i].what);
+            (void)snprintf(row.quantity, sizeof row.quantity, "%s of E and rho",
+                           down ? "smallest jump" : "largest jump");
+            verify_extreme_bisect(right_at, &bar, down ? 0.99 : 1.01, down ? 1e-6 : 1e6, 0.1, &row.value, &row.fails,
+                                  row.note, sizeof row.note);
+            if (isnan(row.fails)) {
+                (void)snprintf(row.note, sizeof row.note, "as far as it was driven");
+            }
+            verify_extreme_told(in, &row);
+        }
+    }
+    return true;
+}

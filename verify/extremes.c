@@ -1,0 +1,139 @@
+#include "verify/extremes.h"
+
+#include "verify/find.h"
+#include "verify/simulate.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const struct verify_extreme table[] = {
+    {"cfl", "largest stable CFL number, beside that of the eigenvalues of the same stencil", verify_extreme_cfl},
+    {"scale", "bodies of 1e-9 and 1e6 m, of 1 and 1e12 Pa: the same numbers without dimension", verify_extreme_scale},
+    {"place", "bodies a million lengths away, and turned: the same motion", verify_extreme_place},
+    {"alternating", "velocities that alternate from particle to particle: at what rate each scheme damps them",
+     verify_extreme_alternating},
+    {"spin", "a body that turns a thousand times", verify_extreme_spin},
+    {"vibration", "a million steps of a free vibration", verify_extreme_vibration},
+    {"poisson", "Poisson's ratio towards 0.5 and -1", verify_extreme_poisson},
+    {"stretch", "held bodies stretched and compressed along one axis", verify_extreme_stretch},
+    {"perturbed", "clouds whose particles are moved at random, by a share of the spacing", verify_extreme_perturbed},
+    {"impact", "bodies that hit a rigid wall", verify_extreme_impact},
+    {"contrast", "density and stiffness that jump a million times within a bar", verify_extreme_contrast},
+    {"small", "the smallest clouds and the thinnest bodies: a right answer or a refusal", verify_extreme_small},
+    {NULL, NULL, NULL},
+};
+
+const struct verify_extreme *verify_extremes_table(void)
+{
+    return table;
+}
+
+const struct verify_extreme *verify_extreme_find(const char *name)
+{
+    for (const struct verify_extreme *extreme = table; extreme->name != NULL; extreme++) {
+        if (strcmp(extreme->name, name) == 0) {
+            return extreme;
+        }
+    }
+    return NULL;
+}
+
+bool verify_extreme_holds(const struct verify_extreme_row *row)
+{
+    return row->value >= row->least && row->value <= row->most;
+}
+
+void verify_extreme_told(const struct verify_extremes *in, const struct verify_extreme_row *row)
+{
+    in->take(in->context, in->extreme, row);
+}
+
+bool verify_trial_open(const struct verify_extremes *in, const char *scene, struct verify_trial *trial,
+                       struct solver_error *error, const char *format, ...)
+{
+    char path[VERIFY_PATH], settings[1024];
+    const char *override[VERIFY_OVERRIDES];
+    size_t count = 0;
+    va_list arguments;
+    *trial = (struct verify_trial){NULL, NULL};
+    va_start(arguments, format);
+    int length = vsnprintf(settings, sizeof settings, format, arguments);
+    va_end(arguments);
+    char *rest = settings;
+    for (char *word = strtok_r(settings, " ", &rest); word != NULL; word = strtok_r(NULL, " ", &rest)) {
+        if (count + in->options->override_count >= VERIFY_OVERRIDES) {
+            break;
+        }
+        override[count++] = word;
+    }
+    if (length < 0 || (size_t)length >= sizeof settings || count + in->options->override_count >= VERIFY_OVERRIDES) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "too many overrides for the scene %s", scene);
+    }
+    memcpy(override + count, in->options->override, in->options->override_count * sizeof *override);
+    count += in->options->override_count;
+    bool ok = verify_scene_find(scene, path, error) && solver_scene_load(path, override, count, &trial->scene, error) &&
+              verify_run_create(trial->scene, &trial->run, error);
+    if (!ok) {
+        verify_trial_close(trial);
+    }
+    return ok;
+}
+
+void verify_trial_close(struct verify_trial *trial)
+{
+    solver_run_free(trial->run);
+    solver_scene_free(trial->scene);
+    *trial = (struct verify_trial){NULL, NULL};
+}
+
+bool verify_trial_finish(struct verify_trial *trial, struct solver_error *error)
+{
+    return solver_run_to(trial->run, trial->scene->t_end, NULL, NULL, error);
+}
+
+double verify_trial_speed(struct verify_trial *trial, double *largest)
+{
+    struct solver_output out;
+    struct solver_error error;
+    double sum = 0.0, volume = 0.0, most = 0.0;
+    if (!solver_run_output(trial->run, &out, &error)) {
+        return NAN;
+    }
+    size_t dim = (size_t)out.cloud->dim;
+    for (size_t a = 0; a < out.cloud->count; a++) {
+        double square = 0.0;
+        for (size_t i = 0; i < dim; i++) {
+            square += out.v[a * dim + i] * out.v[a * dim + i];
+        }
+        sum += out.V[a] * square;
+        volume += out.V[a];
+        most = fmax(most, square);
+    }
+    if (largest != NULL) {
+        *largest = sqrt(most);
+    }
+    return sqrt(sum / volume);
+}
+
+void verify_extreme_bisect(verify_extreme_try *holds_at, void *with, double near, double far, double width,
+                           double *holds, double *fails, char *note, size_t size)
+{
+    *holds = near;
+    *fails = far;
+    if (!holds_at(with, near, note, size)) {
+        *holds = NAN;
+        *fails = near;
+        return;
+    }
+    if (holds_at(with, far, note, size)) {
+        *holds = far;
+        *fails = NAN;
+        return;
+    }
+    while (fmax(*fails / *holds, *holds / *fails) > 1.0 + width) {
+        double middle = sqrt(*holds * *fails);
+        *(holds_at(with, middle, note, size) ? holds : fails) = middle;
+    }
+}
