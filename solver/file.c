@@ -34,8 +34,8 @@ static int create_beside(const char *staged)
     return fd;
 }
 
-bool solver_file_stage(const char *path, const void *bytes, size_t size, char staged[SOLVER_FILE_PATH],
-                       struct solver_error *error)
+bool solver_file_stage_parts(const char *path, const struct solver_file_part *part, size_t count,
+                             char staged[SOLVER_FILE_PATH], struct solver_error *error)
 {
     int length = snprintf(staged, SOLVER_FILE_PATH, "%s.partial-%ld", path, (long)getpid());
     if (length < 0 || length >= SOLVER_FILE_PATH) {
@@ -46,7 +46,13 @@ bool solver_file_stage(const char *path, const void *bytes, size_t size, char st
         return solver_fail(error, SOLVER_IO, "cannot write %.600s: %s (creating a file in its folder)", path,
                            strerror(errno));
     }
-    bool written = write_all(fd, bytes, size) && fsync(fd) == 0;
+    bool written = true;
+    size_t size = 0;
+    for (size_t i = 0; i < count; i++) {
+        written = written && write_all(fd, part[i].bytes, part[i].size);
+        size += part[i].size;
+    }
+    written = written && fsync(fd) == 0;
     int why = errno;
     if (close(fd) != 0 && written) {
         written = false;
@@ -58,6 +64,12 @@ bool solver_file_stage(const char *path, const void *bytes, size_t size, char st
                            path, strerror(why), size);
     }
     return true;
+}
+
+bool solver_file_stage(const char *path, const void *bytes, size_t size, char staged[SOLVER_FILE_PATH],
+                       struct solver_error *error)
+{
+    return solver_file_stage_parts(path, &(struct solver_file_part){bytes, size}, 1, staged, error);
 }
 
 /* The rename itself must survive a power cut; a file system that cannot flush a folder is no reason to fail. */
