@@ -2,10 +2,13 @@
 #include "verify/find.h"
 #include "verify/picture.h"
 #include "verify/report.h"
+#include "verify/restart.h"
 #include "verify/simulate.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 static void print_facts(const struct solver_scene *scene, const struct solver_facts *facts)
 {
@@ -53,12 +56,31 @@ static bool judge(const struct solver_scene *scene, struct solver_run *run, cons
     return true;
 }
 
-static bool run_scene(struct solver_scene *scene, const struct verify_options *options, struct solver_error *error)
-{
+/* A scene, where its results go, and the command line that its record holds. */
+struct work {
+    struct solver_scene *scene;
+    struct verify_keeping keeping;
     char folder[VERIFY_PATH];
+    char line[VERIFY_COMMAND_LINE];
+};
+
+static bool open_work(struct work *work, const struct verify_options *options, struct solver_error *error)
+{
+    work->keeping.every = options->checkpoint;
+    if (options->restart != NULL) {
+        return verify_restart_open(options, &work->scene, &work->keeping, work->line, error) &&
+               verify_restart_folder(options, work->folder, error);
+    }
+    memcpy(work->line, options->line, sizeof work->line);
+    return verify_scene_open(options, 0, &work->scene, error) &&
+           verify_out_folder(options, work->scene->name, work->folder, error);
+}
+
+static bool run_scene(struct work *work, struct solver_error *error)
+{
+    const struct solver_scene *scene = work->scene;
     struct solver_run *run = NULL;
-    if (!verify_out_folder(options, scene->name, folder, error) ||
-        !verify_simulate(scene, folder, options->line, NULL, NULL, &run, error)) {
+    if (!verify_simulate_kept(work->scene, work->folder, work->line, &work->keeping, &run, error)) {
         return false;
     }
     const struct solver_facts facts = solver_run_facts(run);
@@ -67,7 +89,7 @@ static bool run_scene(struct solver_scene *scene, const struct verify_options *o
     if (history->count > 0) {
         verify_terminal_totals(stdout, scene, &history->totals[0], &history->totals[history->count - 1]);
     }
-    bool kept = judge(scene, run, &facts, error) && keep(scene, run, folder, options->line, error);
+    bool kept = judge(scene, run, &facts, error) && keep(scene, run, work->folder, work->line, error);
     solver_run_free(run);
     return kept;
 }
@@ -75,11 +97,14 @@ static bool run_scene(struct solver_scene *scene, const struct verify_options *o
 int verify_command_run(const struct verify_options *options)
 {
     struct solver_error error = {.code = SOLVER_OK};
-    struct solver_scene *scene = NULL;
-    if (!verify_scene_open(options, 0, &scene, &error)) {
+    struct work *work = calloc(1, sizeof *work);
+    if (work == NULL) {
+        (void)solver_fail(&error, SOLVER_NO_MEMORY, "no memory for a run");
         return verify_complain(&error);
     }
-    bool done = run_scene(scene, options, &error);
-    solver_scene_free(scene);
+    bool done = open_work(work, options, &error) && run_scene(work, &error);
+    solver_checkpoint_free(work->keeping.from);
+    solver_scene_free(work->scene);
+    free(work);
     return done ? VERIFY_PASSED : verify_complain(&error);
 }

@@ -2,6 +2,7 @@
 #include "verify/commands.h"
 #include "verify/help.h"
 #include "verify/manual.h"
+#include "verify/signals.h"
 #include "verify/suggest.h"
 
 #include <stdio.h>
@@ -18,11 +19,21 @@ static const struct verify_command commands[] = {
     {.name = "run",
      .operands = "SCENE",
      .summary = "simulate: record, picture, conserved quantities",
-     .help = "Simulates a scene: one of `assay list scenes`, or the path of a .lua file. Writes SCENE.vtkhdf, which\n"
-             "ParaView opens (SCENE.xdmf beside it is for older readers), and SCENE.png, and prints conserved\n"
-             "quantities, time and memory per particle.\n\n"
-             "  assay run swinging-cube --set n=16 --set stencil=closed --set material.nu=0.45",
-     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_OUT,
+     .help =
+         "Simulates a scene: one of `assay list scenes`, or the path of a .lua file. Writes SCENE.vtkhdf, which\n"
+         "ParaView opens (SCENE.xdmf beside it is for older readers), and SCENE.png, and prints conserved\n"
+         "quantities, time and memory per particle.\n\n"
+         "  assay run swinging-cube --set n=16 --set stencil=closed --set material.nu=0.45\n\n"
+         "--checkpoint writes SCENE.checkpoint now and then, each in place of the one before. SIGINT (Ctrl-C),\n"
+         "SIGTERM and SIGHUP stop a run after its step; it is kept the same way, if checkpoints were asked for or\n"
+         "it has gone on for five seconds. The message says where, and how to go on:\n\n"
+         "  assay run taylor-bar --checkpoint 10min\n"
+         "  assay run --restart out/taylor-bar/taylor-bar.checkpoint\n\n"
+         "A checkpoint holds the scene and its overrides; nothing else is needed. The run that goes on gives the\n"
+         "same bytes as one that was never stopped, for any number of threads (--set threads=N, and no other key).\n"
+         "Results go to the checkpoint's folder unless --out says otherwise. One of another version of the program\n"
+         "is refused, and one whose scene's file has changed since, unless --as-stored is given.",
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_OUT | VERIFY_TAKES_CHECKPOINT,
      .least = 1,
      .most = 1,
      .run = verify_command_run},
@@ -127,7 +138,7 @@ static void print_help(FILE *file)
     }
     (void)fprintf(file, "\nassay COMMAND --help says more. A first one to try:\n\n  assay verify swinging-cube\n\n"
                         "Exit codes: 0 all is well, 1 a gate or a comparison fails, 2 the command line, a scene or a\n"
-                        "file is wrong, 3 the run itself failed.\n");
+                        "file is wrong, 3 the run itself failed, 128 + N a signal N stopped it.\n");
 }
 
 static const struct verify_command *find(const char *name)
@@ -197,5 +208,7 @@ int main(int argc, char **argv)
         verify_options_help(stdout, command);
         return VERIFY_PASSED;
     }
-    return flushed(command->run(&options));
+    verify_signals_prepare();
+    int code = command->run(&options);
+    return code == VERIFY_STOPPED ? verify_signals_follow() : flushed(code);
 }

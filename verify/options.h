@@ -4,6 +4,7 @@
 
 #include "solver/error.h"
 #include "solver/scene.h"
+#include "verify/pace.h"
 
 #include <stddef.h>
 #include <stdio.h>
@@ -14,6 +15,7 @@ enum verify_exit {
     VERIFY_FAILED = 1,     /* a gate or a comparison fails */
     VERIFY_BAD_INPUT = 2,  /* command line, scene or file is wrong */
     VERIFY_RUN_FAILED = 3, /* the run itself failed */
+    VERIFY_STOPPED = 128,  /* a signal ended it, whose number is added (signals.h) */
 };
 
 enum { VERIFY_OVERRIDES = 64, VERIFY_OPERANDS = 16, VERIFY_COMMAND_LINE = 2048 };
@@ -36,7 +38,8 @@ enum verify_takes {
     VERIFY_TAKES_PLACES = 8192, /* --points FILE, --grid RANGES, --inside */
     VERIFY_TAKES_TABLE = 16384, /* --output FILE.h5 or FILE.csv */
     VERIFY_TAKES_TOLERANCE = 32768,
-    VERIFY_TAKES_MUTATIONS = 65536, /* --mutations, in place of any word */
+    VERIFY_TAKES_MUTATIONS = 65536,   /* --mutations, in place of any word */
+    VERIFY_TAKES_CHECKPOINT = 131072, /* --checkpoint PACE, --restart FILE in place of any word, --as-stored */
 };
 
 /* What an option that may be repeated was given, in order. */
@@ -61,7 +64,11 @@ struct verify_options {
     bool inside;  /* places outside the body are left out */
     bool help;
     bool mutations;
-    char line[VERIFY_COMMAND_LINE]; /* the command line as typed, for the record */
+    struct verify_pace checkpoint;  /* zeros where not given */
+    const char *restart;            /* NULL where not given */
+    bool as_stored;                 /* the scene's file may have changed since */
+    char line[VERIFY_COMMAND_LINE]; /* the command line as typed, but for --checkpoint, which no result depends on: for
+                                       the record */
 };
 
 /* One command of the program. */
