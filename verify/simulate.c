@@ -144,6 +144,7 @@ struct journey {
     struct verify_progress progress;
     struct verify_checkpoints *checkpoints; /* NULL: it is not kept */
     bool due;                               /* a checkpoint */
+    bool failing;                           /* the last could not be written, which has been said */
     double time;                            /* [s] */
     size_t step;
 };
@@ -163,10 +164,12 @@ static bool watch(void *context, double time, double t_end, size_t step)
 static void keep(struct journey *at)
 {
     struct solver_error why = {.code = SOLVER_OK};
-    if (!verify_checkpoints_write(at->checkpoints, at->run, &why)) {
+    bool failed = !verify_checkpoints_write(at->checkpoints, at->run, &why);
+    if (failed && !at->failing) {
         verify_progress_end(&at->progress);
         (void)fprintf(stderr, "assay: step %zu: %s; the run goes on\n", at->step, why.text);
     }
+    at->failing = failed;
 }
 
 static bool stop(struct journey *at, struct solver_error *error)
