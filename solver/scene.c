@@ -228,8 +228,8 @@ static bool load(const char *path, const char *text, const char *const *override
     if (!fresh)
         return solver_fail(error, SOLVER_NO_MEMORY, "%.400s: no memory for a scene", path);
     bool good = describe(fresh, path, overrides, override_count, error) &&
-                (text ? copy_text(fresh, text, error) : read_file(fresh, error)) &&
-                scene_lua_create(fresh, error) && scene_overrides_parse(fresh->lua, overrides, override_count, error) &&
+                (text ? copy_text(fresh, text, error) : read_file(fresh, error)) && scene_lua_create(fresh, error) &&
+                scene_overrides_parse(fresh->lua, overrides, override_count, error) &&
                 scene_lua_protect(fresh->lua, read_scene, fresh, error) && try_formulas(fresh, error);
     if (!good) {
         solver_scene_free(fresh);
