@@ -1,8 +1,11 @@
 #include "solver/file.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -72,17 +75,22 @@ bool solver_file_stage(const char *path, const void *bytes, size_t size, char st
     return solver_file_stage_parts(path, &(struct solver_file_part){bytes, size}, 1, staged, error);
 }
 
+static void folder_of(const char *path, char folder[SOLVER_FILE_PATH])
+{
+    (void)snprintf(folder, SOLVER_FILE_PATH, "%s", path);
+    char *slash = strrchr(folder, '/');
+    if (slash == NULL) {
+        (void)snprintf(folder, SOLVER_FILE_PATH, ".");
+    } else {
+        slash[slash == folder ? 1 : 0] = '\0';
+    }
+}
+
 /* The rename itself must survive a power cut; a file system that cannot flush a folder is no reason to fail. */
 static void flush_folder(const char *path)
 {
     char folder[SOLVER_FILE_PATH];
-    (void)snprintf(folder, sizeof folder, "%s", path);
-    char *slash = strrchr(folder, '/');
-    if (slash == NULL) {
-        (void)snprintf(folder, sizeof folder, ".");
-    } else {
-        slash[slash == folder ? 1 : 0] = '\0';
-    }
+    folder_of(path, folder);
     int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd >= 0) {
         (void)fsync(fd);
@@ -105,4 +113,34 @@ bool solver_file_replace(const char *path, const void *bytes, size_t size, struc
 {
     char staged[SOLVER_FILE_PATH];
     return solver_file_stage(path, bytes, size, staged, error) && solver_file_commit(staged, path, error);
+}
+
+/* The process that staged the file of this name for `base`; 0: the name is none of those. */
+static long writer_of(const char *name, const char *base)
+{
+    static const char part[] = ".partial-";
+    size_t length = strlen(base);
+    char *end = NULL;
+    if (strncmp(name, base, length) != 0 || strncmp(name + length, part, sizeof part - 1) != 0) {
+        return 0;
+    }
+    long number = strtol(name + length + sizeof part - 1, &end, 10);
+    return *end == '\0' && number > 0 ? number : 0;
+}
+
+void solver_file_sweep(const char *path)
+{
+    char folder[SOLVER_FILE_PATH];
+    const char *slash = strrchr(path, '/');
+    folder_of(path, folder);
+    DIR *open_folder = opendir(folder);
+    for (struct dirent *entry = NULL; open_folder != NULL && (entry = readdir(open_folder)) != NULL;) {
+        long writer = writer_of(entry->d_name, slash != NULL ? slash + 1 : path);
+        if (writer > 0 && kill((pid_t)writer, 0) != 0 && errno == ESRCH) {
+            (void)unlinkat(dirfd(open_folder), entry->d_name, 0);
+        }
+    }
+    if (open_folder != NULL) {
+        (void)closedir(open_folder);
+    }
 }

@@ -28,4 +28,7 @@ bool solver_file_commit(const char staged[SOLVER_FILE_PATH], const char *path, s
 /* Both in one: for a file that stands alone. */
 bool solver_file_replace(const char *path, const void *bytes, size_t size, struct solver_error *error);
 
+/* Removes what processes that are no more, killed while they wrote, have left beside `path`. */
+void solver_file_sweep(const char *path);
+
 #endif

@@ -96,6 +96,12 @@ def check_whole(path):
         sys.exit(f"FAIL: {path} is not whole")
 
 
+def step_of(path):
+    """The step that a checkpoint stands at."""
+    data = path.read_bytes()
+    return struct.unpack_from("<Q", data, data.index(b"step".ljust(56, b"\0")) + 64)[0]
+
+
 def killed(place):
     """kill -9 at fifty moments, each time going on from what is there."""
     moments = random.Random(7)
@@ -104,15 +110,25 @@ def killed(place):
     checkpoint = place.at("killed") / CHECKPOINT
     process = place.start("killed", [*RUN, "--checkpoint", "1"])
     wait_for(checkpoint.exists, process)
+    cut = set() # what was being written when it was killed
     for _ in range(50):
-        time.sleep(moments.uniform(0, 0.04))
+        time.sleep(moments.uniform(0, 0.01))
         process.kill()
         place.end(process, -signal.SIGKILL)
         check_whole(checkpoint)
+        cut.update(checkpoint.parent.glob("*.partial-*"))
+        before = checkpoint.stat().st_mtime_ns
         process = place.start("killed", ["run", "--restart", CHECKPOINT])
+        wait_for(lambda old=before: checkpoint.stat().st_mtime_ns != old, process)
     process.kill()
     process.communicate()
+    print(f"the last at step {step_of(checkpoint)}; {len(cut)} while it wrote")
+    left, living = (pathlib.Path(f"{checkpoint}.partial-{number}") for number in (process.pid, os.getpid()))
+    left.touch()
+    living.touch()
     place.run("killed", ["run", "--restart", CHECKPOINT, "--checkpoint", "1h"])
+    if list(checkpoint.parent.glob("*.partial-*")) != [living]:
+        sys.exit("FAIL: what the dead have left is to be swept away, and nothing else")
     place.same("straight", "killed")
 
 

@@ -1,5 +1,6 @@
 #include "verify/checkpoints.h"
 
+#include "solver/file.h"
 #include "verify/signals.h"
 
 #include <stdio.h>
@@ -19,7 +20,11 @@ bool verify_checkpoints_begin(struct verify_checkpoints *checkpoints, const stru
 {
     double begun = now();
     *checkpoints = (struct verify_checkpoints){.scene = scene, .command = command, .begun = begun, .written = begun};
-    return verify_path_join(checkpoints->path, folder, scene->name, ".checkpoint", error);
+    if (!verify_path_join(checkpoints->path, folder, scene->name, ".checkpoint", error)) {
+        return false;
+    }
+    solver_file_sweep(checkpoints->path);
+    return true;
 }
 
 bool verify_checkpoints_due(const struct verify_checkpoints *checkpoints, size_t step)

@@ -30,9 +30,8 @@ static void keep_last_good(const struct solver_scene *scene, struct solver_run *
     (void)snprintf(stem, sizeof stem, "%s.last-good", scene->name);
     bool kept = verify_record(scene, run, folder, stem, command, path, &why);
     size_t used = strlen(error->text);
-    (void)snprintf(
-        error->text + used, sizeof error->text - used, "%s%.400s",
-        kept ? "; the last good state is in " : "; the last good state could not be kept: ", kept ? path : why.text);
+    (void)snprintf(error->text + used, sizeof error->text - used, "; the last good state %s%.400s%s",
+                   kept ? "is in " : "could not be kept: ", kept ? path : why.text, kept ? ", for assay render" : "");
 }
 
 static bool arrived(const struct solver_scene *scene, struct solver_run *run, struct solver_error *error)
