@@ -16,10 +16,18 @@ static double now(void)
 }
 
 bool verify_checkpoints_begin(struct verify_checkpoints *checkpoints, const struct solver_scene *scene,
-                              const char *folder, const char *command, struct solver_error *error)
+                              const char *folder, const char *command, const struct solver_checkpoint *from,
+                              struct solver_error *error)
 {
     double begun = now();
-    *checkpoints = (struct verify_checkpoints){.scene = scene, .command = command, .begun = begun, .written = begun};
+    char *file = from == NULL ? realpath(scene->path, NULL) : NULL;
+    *checkpoints = (struct verify_checkpoints){
+        .scene = scene, .command = command, .resumed = from != NULL, .begun = begun, .written = begun};
+    (void)snprintf(checkpoints->file, sizeof checkpoints->file, "%s",
+                   from != NULL   ? solver_checkpoint_about(from)->scene_file
+                   : file != NULL ? file
+                                  : scene->path);
+    free(file);
     if (!verify_path_join(checkpoints->path, folder, scene->name, ".checkpoint", error)) {
         return false;
     }
@@ -38,10 +46,9 @@ bool verify_checkpoints_write(struct verify_checkpoints *checkpoints, const stru
                               struct solver_error *error)
 {
     const struct solver_scene *scene = checkpoints->scene;
-    char *file = realpath(scene->path, NULL); /* so that a change of it is noticed from any folder */
     const struct solver_checkpoint_about about = {
         .scene_path = scene->path,
-        .scene_file = file != NULL ? file : scene->path,
+        .scene_file = checkpoints->file,
         .scene_text = scene->text,
         .overrides = scene->overrides,
         .command = checkpoints->command,
@@ -50,7 +57,6 @@ bool verify_checkpoints_write(struct verify_checkpoints *checkpoints, const stru
         .every_steps = checkpoints->every.steps,
     };
     bool done = solver_checkpoint_write(checkpoints->path, run, &about, error);
-    free(file);
     checkpoints->written = now();
     if (done) {
         checkpoints->there = true;

@@ -13,7 +13,8 @@
 /* Of one run. */
 struct verify_checkpoints {
     const struct solver_scene *scene;
-    const char *command; /* that the run began with */
+    const char *command;    /* that the run began with */
+    char file[VERIFY_PATH]; /* the scene's, from the root, so that a change is noticed from any folder */
     struct verify_pace every;
     bool resumed; /* the run went on from a checkpoint */
     char path[VERIFY_PATH];
@@ -22,9 +23,11 @@ struct verify_checkpoints {
     size_t step;
 };
 
-/* Checkpoints are FOLDER/SCENE.checkpoint, each in place of the one before. */
+/* Checkpoints are FOLDER/SCENE.checkpoint, each in place of the one before. `from`: what the run goes on from, or NULL.
+ */
 bool verify_checkpoints_begin(struct verify_checkpoints *checkpoints, const struct solver_scene *scene,
-                              const char *folder, const char *command, struct solver_error *error);
+                              const char *folder, const char *command, const struct solver_checkpoint *from,
+                              struct solver_error *error);
 /* Whether one is due after this step. */
 bool verify_checkpoints_due(const struct verify_checkpoints *checkpoints, size_t step);
 /* Writes one. SOLVER_IO leaves the one before as it was. */

@@ -179,7 +179,8 @@ static bool stop(struct journey *at, struct solver_error *error)
     }
     return solver_fail(
         error, SOLVER_STOPPED,
-        "%s: stopped by %s at step %zu, t = %.6g s of %.6g s; nothing of this is kept, as assay run does",
+        "%s: stopped by %s at step %zu, t = %.6g s of %.6g s; of runs that are stopped, assay run alone keeps "
+        "anything",
         at->progress.label, verify_signals_name(number), at->step, at->time, at->scene->t_end);
 }
 
@@ -267,10 +268,9 @@ bool verify_simulate_kept(struct solver_scene *scene, const char *folder, const 
     struct verify_checkpoints checkpoints;
     struct journey at = {.scene = scene, .folder = folder, .command = command, .checkpoints = &checkpoints};
     *run = NULL;
-    if (!verify_checkpoints_begin(&checkpoints, scene, folder, command, error)) {
+    if (!verify_checkpoints_begin(&checkpoints, scene, folder, command, keeping->from, error)) {
         return false;
     }
     checkpoints.every = keeping->every;
-    checkpoints.resumed = keeping->from != NULL;
     return travel(&at, &keeping->from, NULL, NULL, run, error);
 }

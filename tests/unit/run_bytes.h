@@ -11,7 +11,7 @@
 struct run_bytes {
     void *record;
     size_t size;
-    double bodies[SOLVER_BODIES][3], contact[2];
+    uint64_t bodies[SOLVER_BODIES][3], contact[2]; /* bits of numbers, of which some may be NaN */
 };
 
 static inline struct run_bytes run_bytes_of(const struct solver_scene *scene, struct solver_run *run)
@@ -26,8 +26,8 @@ static inline struct run_bytes run_bytes_of(const struct solver_scene *scene, st
     CU_ASSERT_FATAL(record_to_hdf5(record, &bytes.record, &bytes.size, &error));
     solver_record_free(record);
     memcpy(bytes.bodies, history->body_velocity, sizeof bytes.bodies);
-    bytes.contact[0] = history->contact_begin;
-    bytes.contact[1] = history->contact_end;
+    memcpy(&bytes.contact[0], &history->contact_begin, sizeof bytes.contact[0]);
+    memcpy(&bytes.contact[1], &history->contact_end, sizeof bytes.contact[1]);
     return bytes;
 }
 
