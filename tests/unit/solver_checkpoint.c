@@ -8,7 +8,6 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 
 static char folder[] = "/tmp/assay-checkpoint-XXXXXX";
 static char path[64];
@@ -197,20 +196,19 @@ static void notes(void)
     finish(&sample);
 }
 
-/* A disk that is full after `limit` bytes, for a child process. True if writing failed there with a clear error. */
+/* True if writing fails, with a clear error, where no file may have more than `limit` bytes. */
 static bool write_on_small_disk(const struct sample *sample, rlim_t limit)
 {
-    pid_t child = fork();
-    if (child == 0) {
-        struct solver_error error = {.text = ""};
-        struct rlimit most = {limit, limit};
-        (void)signal(SIGXFSZ, SIG_IGN);
-        bool refused =
-            setrlimit(RLIMIT_FSIZE, &most) == 0 && !solver_checkpoint_write(path, sample->run, &about, &error);
-        _exit(refused && error.code == SOLVER_IO && strstr(error.text, path) != NULL ? 0 : 1);
-    }
-    int status = -1;
-    return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    struct solver_error error = {.text = ""};
+    struct rlimit before;
+    CU_ASSERT_FATAL(getrlimit(RLIMIT_FSIZE, &before) == 0);
+    const struct rlimit most = {limit, before.rlim_max};
+    (void)signal(SIGXFSZ, SIG_IGN);
+    CU_ASSERT_FATAL(setrlimit(RLIMIT_FSIZE, &most) == 0);
+    bool refused = !solver_checkpoint_write(path, sample->run, &about, &error);
+    CU_ASSERT_FATAL(setrlimit(RLIMIT_FSIZE, &before) == 0);
+    (void)signal(SIGXFSZ, SIG_DFL);
+    return refused && error.code == SOLVER_IO && strstr(error.text, path) != NULL;
 }
 
 static void full_disk(void)
