@@ -30,7 +30,8 @@ bool verify_pace_read(const char *text, struct verify_pace *pace)
         return read_steps(text, pace);
     }
     double number = strtod(text, &end);
-    for (size_t i = 0; i < sizeof units / sizeof *units; i++) {
+    bool decimal = strspn(text, "0123456789.eE+-") >= (size_t)(end - text);
+    for (size_t i = 0; decimal && i < sizeof units / sizeof *units; i++) {
         if (strcmp(end, units[i].unit) == 0) {
             pace->seconds = number * units[i].seconds;
         }
