@@ -1,5 +1,6 @@
 #include "solver/contact.h"
 
+#include "solver/keep.h"
 #include "solver/memory.h"
 
 #include <math.h>
@@ -116,4 +117,12 @@ bool solver_contact_act(struct solver_contact *contact, const double *x, const d
         }
     }
     return true;
+}
+
+/* The list of pairs makes itself anew; which pairs beyond the distance it holds changes nothing. */
+bool solver_contact_keep(struct solver_contact *contact, struct solver_keeper *keeper, struct solver_error *error)
+{
+    return contact->law == SOLVER_CONTACT_NONE ||
+           (solver_keep(keeper, "contact begins", &contact->begin, sizeof contact->begin, error) &&
+            solver_keep(keeper, "contact ends", &contact->end, sizeof contact->end, error));
 }

@@ -25,5 +25,7 @@ void solver_contact_free(struct solver_contact *contact);
  * vectors of `lanes`. SOLVER_BROKE_DOWN where bodies could go through one another within the step. */
 bool solver_contact_act(struct solver_contact *contact, const double *x, const double *v, size_t lanes, double t,
                         double dt, double *v_rate, struct solver_error *error);
+/* For checkpoints (keep.h). */
+bool solver_contact_keep(struct solver_contact *contact, struct solver_keeper *keeper, struct solver_error *error);
 
 #endif

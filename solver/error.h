@@ -6,10 +6,11 @@
 
 enum solver_code {
     SOLVER_OK = 0,
-    SOLVER_BAD_INPUT, /* scene, command line or file is wrong: the user can mend it */
-    SOLVER_NO_MEMORY, /* an allocation failed; the text says how much was asked for */
-    SOLVER_IO,        /* a file could not be read or written */
-    SOLVER_BROKE_DOWN /* the run itself failed: NaN, inverted particle, no convergence */
+    SOLVER_BAD_INPUT,  /* scene, command line or file is wrong: the user can mend it */
+    SOLVER_NO_MEMORY,  /* an allocation failed; the text says how much was asked for */
+    SOLVER_IO,         /* a file could not be read or written */
+    SOLVER_BROKE_DOWN, /* the run itself failed: NaN, inverted particle, no convergence */
+    SOLVER_STOPPED     /* nothing failed: whoever calls was asked to end */
 };
 
 struct solver_error {

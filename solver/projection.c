@@ -1,5 +1,6 @@
 #include "solver/projection.h"
 
+#include "solver/keep.h"
 #include "solver/memory.h"
 #include "solver/pieces.h"
 #include "solver/small.h"
@@ -350,4 +351,11 @@ bool solver_projection_act(struct solver_projection *projection, const struct so
         projection->centre[i] += middle[i];
     }
     return true;
+}
+
+bool solver_projection_keep(struct solver_projection *projection, struct solver_keeper *keeper,
+                            struct solver_error *error)
+{
+    return !projection->on ||
+           solver_keep(keeper, "centre of moments", projection->centre, sizeof projection->centre, error);
 }

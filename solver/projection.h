@@ -56,4 +56,8 @@ void solver_projection_note(struct solver_projection *projection, const struct s
 bool solver_projection_act(struct solver_projection *projection, const struct solver_state *state,
                            const struct solver_stage *stage, bool last, double dt, struct solver_error *error);
 
+/* For checkpoints (keep.h): the centre, which follows the body from step to step. */
+bool solver_projection_keep(struct solver_projection *projection, struct solver_keeper *keeper,
+                            struct solver_error *error);
+
 #endif

@@ -4,10 +4,9 @@
 #define SOLVER_RECORD_FORMAT_H
 
 #include "solver/record.h"
+#include "solver/seal.h"
 
 #include <hdf5.h>
-
-_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "checksums are little-endian, as on disk");
 
 #define RECORD_FORMAT "assay record 1"
 
@@ -23,17 +22,6 @@ extern const struct record_known record_known[];
 
 /* VTK's cell type (line 3, quad 9, hexahedron 12) of cells with 2, 4, 8 corners. */
 uint8_t record_vtk_type(int cell_width);
-
-/* A file ends with a seal: these eight bytes, then the checksum of all before them. HDF5's own checksums cover neither
- * values nor all of the structure, and its library may crash on what is damaged, so it is shown no file whose seal is
- * broken. HDF5 readers pass over the seal. */
-#define RECORD_SEAL "assaySUM"
-enum { RECORD_SEAL_SIZE = 16 };
-
-/* Like FNV-1a, eight bytes at a time: each step is one-to-one, so a single changed word always changes the sum. Sums
- * chain where all parts but the last are whole words. */
-uint64_t record_checksum(uint64_t seed, const void *data, size_t bytes);
-#define RECORD_CHECKSUM_SEED UINT64_C(0xcbf29ce484222325)
 
 /* HDF5 prints its errors unless told otherwise; the solver never prints. */
 struct record_quiet {

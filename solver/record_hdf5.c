@@ -313,16 +313,16 @@ static size_t image_size(const struct image *image)
 static bool seal(struct image *image, void **bytes, size_t *size, struct solver_error *error)
 {
     const size_t length = image_size(image);
-    unsigned char *sealed = realloc(image->bytes, length + RECORD_SEAL_SIZE);
+    unsigned char *sealed = realloc(image->bytes, length + SOLVER_SEAL_SIZE);
     if (sealed == NULL) {
         free(image->bytes);
         return solver_fail(error, SOLVER_NO_MEMORY, "record: no memory for %zu bytes", length);
     }
-    const uint64_t sum = record_checksum(RECORD_CHECKSUM_SEED, sealed, length);
-    memcpy(sealed + length, RECORD_SEAL, 8);
+    const uint64_t sum = solver_seal_sum(SOLVER_SEAL_SEED, sealed, length);
+    memcpy(sealed + length, SOLVER_SEAL, 8);
     memcpy(sealed + length + 8, &sum, sizeof sum);
     *bytes = sealed;
-    *size = length + RECORD_SEAL_SIZE;
+    *size = length + SOLVER_SEAL_SIZE;
     return true;
 }
 

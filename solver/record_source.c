@@ -29,18 +29,18 @@ static bool refuse_hdf5(struct record_source *source, const char *where)
 /* Whether the file ends with the checksum of what comes before. */
 static bool seal_holds(int fd, uint64_t size)
 {
-    unsigned char part[8 * 4096], seal[RECORD_SEAL_SIZE];
-    uint64_t sum = RECORD_CHECKSUM_SEED, at = 0;
-    const uint64_t end = size - RECORD_SEAL_SIZE;
+    unsigned char part[8 * 4096], seal[SOLVER_SEAL_SIZE];
+    uint64_t sum = SOLVER_SEAL_SEED, at = 0;
+    const uint64_t end = size - SOLVER_SEAL_SIZE;
     while (at < end) {
         const size_t wanted = end - at < sizeof part ? (size_t)(end - at) : sizeof part;
         if (pread(fd, part, wanted, (off_t)at) != (ssize_t)wanted) {
             return false;
         }
-        sum = record_checksum(sum, part, wanted);
+        sum = solver_seal_sum(sum, part, wanted);
         at += wanted;
     }
-    return pread(fd, seal, sizeof seal, (off_t)end) == (ssize_t)sizeof seal && memcmp(seal, RECORD_SEAL, 8) == 0 &&
+    return pread(fd, seal, sizeof seal, (off_t)end) == (ssize_t)sizeof seal && memcmp(seal, SOLVER_SEAL, 8) == 0 &&
            memcmp(seal + 8, &sum, sizeof sum) == 0;
 }
 
@@ -67,7 +67,7 @@ static bool looks_right(struct record_source *source)
     } else if (read(fd, start, sizeof start) != (ssize_t)sizeof start || memcmp(start, signature, sizeof start) != 0) {
         (void)record_refuse(source, "file", "is not HDF5 (%lld bytes); expected a record that assay wrote",
                             (long long)about.st_size);
-    } else if (about.st_size < RECORD_SEAL_SIZE || !seal_holds(fd, (uint64_t)about.st_size)) {
+    } else if (about.st_size < SOLVER_SEAL_SIZE || !seal_holds(fd, (uint64_t)about.st_size)) {
         (void)record_refuse(source, "file",
                             "is cut short, damaged, changed since it was written, or not a record that assay wrote: "
                             "its %lld bytes do not end with their checksum",

@@ -1,4 +1,5 @@
 /* What a run shows: fields without padding, conserved quantities, time history. */
+#include "solver/keep.h"
 #include "solver/memory.h"
 #include "solver/run_internal.h"
 
@@ -159,7 +160,6 @@ static void note_bodies(const struct solver_run *run, const double *V, struct so
     size_t dim = (size_t)run->cloud->dim;
     double mass[SOLVER_BODIES] = {0};
     double momentum[SOLVER_BODIES][3] = {{0}};
-    history->body_count = run->cloud->body != NULL ? run->scene->shape_count : 1;
     for (size_t a = 0; a < run->shown.count; a++) {
         size_t body = run->cloud->body != NULL ? run->cloud->body[a] : 0;
         double m = V[a] * solver_run_density(run, a);
@@ -177,13 +177,17 @@ static void note_bodies(const struct solver_run *run, const double *V, struct so
     history->contact_end = run->contact.end;
 }
 
-static bool make_room(struct solver_run *run, struct solver_error *error)
+/* Room for that many rows. */
+static bool make_room(struct solver_run *run, size_t rows, struct solver_error *error)
 {
     struct solver_history *history = &run->history;
-    if (history->count < run->history_room) {
+    size_t room = run->history_room == 0 ? 256 : run->history_room;
+    if (rows <= run->history_room) {
         return true;
     }
-    size_t room = run->history_room == 0 ? 256 : 2 * run->history_room;
+    while (room < rows) {
+        room *= 2;
+    }
     size_t probes = history->probe_count * 3;
     void *totals = realloc(history->totals, room * sizeof *history->totals);
     history->totals = totals != NULL ? totals : history->totals;
@@ -205,6 +209,7 @@ static bool start_history(struct solver_run *run, struct solver_error *error)
     history->probe_count = run->scene->probe_count;
     history->flows = solver_scene_flows(run->scene);
     history->walled = run->wall.count > 0;
+    history->body_count = run->cloud->body != NULL ? run->scene->shape_count : 1;
     if (!solver_alloc((void **)&history->probe_name, history->probe_count, sizeof *history->probe_name, "probes",
                       error) ||
         !solver_alloc((void **)&history->probe_X, history->probe_count, sizeof *history->probe_X, "probes", error)) {
@@ -220,7 +225,7 @@ static bool start_history(struct solver_run *run, struct solver_error *error)
 bool solver_run_note(struct solver_run *run, struct solver_error *error)
 {
     struct solver_history *history = &run->history;
-    if ((history->probe_name == NULL && !start_history(run, error)) || !make_room(run, error)) {
+    if ((history->probe_name == NULL && !start_history(run, error)) || !make_room(run, history->count + 1, error)) {
         return false;
     }
     size_t dim = (size_t)run->cloud->dim;
@@ -243,6 +248,38 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
     note_bodies(run, V, history);
     history->totals[history->count++] = totals;
     return true;
+}
+
+/* Makes the history what a checkpoint's rows go into. */
+static bool receive_rows(struct solver_run *run, uint64_t rows, struct solver_keeper *keeper,
+                         struct solver_error *error)
+{
+    if (rows > keeper->size / sizeof(struct solver_totals)) {
+        return solver_keep_refuse(keeper, error, "its %llu rows of history are more than it can hold",
+                                  (unsigned long long)rows);
+    }
+    if ((run->history.probe_name == NULL && !start_history(run, error)) || !make_room(run, rows, error)) {
+        return false;
+    }
+    run->history.count = rows;
+    return true;
+}
+
+bool solver_run_keep_history(struct solver_run *run, struct solver_keeper *keeper, struct solver_error *error)
+{
+    struct solver_history *history = &run->history;
+    if (!solver_keep(keeper, "rows of history", &history->count, sizeof history->count, error) ||
+        (keeper->reads && !receive_rows(run, history->count, keeper, error))) {
+        return false;
+    }
+    size_t rows = history->count;
+    size_t probed = rows * history->probe_count * 3 * sizeof(double);
+    return solver_keep(keeper, "history", history->totals, rows * sizeof *history->totals, error) &&
+           solver_keep(keeper, "displacements of probes", history->probe_u, probed, error) &&
+           solver_keep(keeper, "velocities of probes", history->probe_v, probed, error) &&
+           solver_keep(keeper, "velocities of bodies", history->body_velocity, sizeof history->body_velocity, error) &&
+           solver_keep(keeper, "contact noted from", &history->contact_begin, sizeof history->contact_begin, error) &&
+           solver_keep(keeper, "contact noted until", &history->contact_end, sizeof history->contact_end, error);
 }
 
 const struct solver_history *solver_run_history(const struct solver_run *run)

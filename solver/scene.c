@@ -214,15 +214,23 @@ static bool try_formulas(const struct solver_scene *scene, struct solver_error *
     return true;
 }
 
-bool solver_scene_load(const char *path, const char *const *overrides, size_t override_count,
-                       struct solver_scene **scene, struct solver_error *error)
+static bool copy_text(struct solver_scene *scene, const char *text, struct solver_error *error)
+{
+    scene->text = strdup(text);
+    return scene->text || solver_fail(error, SOLVER_NO_MEMORY, "%.400s: no memory for its text", scene->path);
+}
+
+/* Of `text`, or of what the file holds where it is NULL. */
+static bool load(const char *path, const char *text, const char *const *overrides, size_t override_count,
+                 struct solver_scene **scene, struct solver_error *error)
 {
     *scene = NULL;
     struct solver_scene *fresh = calloc(1, sizeof *fresh);
     if (!fresh)
         return solver_fail(error, SOLVER_NO_MEMORY, "%.400s: no memory for a scene", path);
-    bool good = describe(fresh, path, overrides, override_count, error) && read_file(fresh, error) &&
-                scene_lua_create(fresh, error) && scene_overrides_parse(fresh->lua, overrides, override_count, error) &&
+    bool good = describe(fresh, path, overrides, override_count, error) &&
+                (text ? copy_text(fresh, text, error) : read_file(fresh, error)) && scene_lua_create(fresh, error) &&
+                scene_overrides_parse(fresh->lua, overrides, override_count, error) &&
                 scene_lua_protect(fresh->lua, read_scene, fresh, error) && try_formulas(fresh, error);
     if (!good) {
         solver_scene_free(fresh);
@@ -233,6 +241,18 @@ bool solver_scene_load(const char *path, const char *const *overrides, size_t ov
     fresh->lua->override_count = 0;
     *scene = fresh;
     return true;
+}
+
+bool solver_scene_load(const char *path, const char *const *overrides, size_t override_count,
+                       struct solver_scene **scene, struct solver_error *error)
+{
+    return load(path, NULL, overrides, override_count, scene, error);
+}
+
+bool solver_scene_load_text(const char *path, const char *text, const char *const *overrides, size_t override_count,
+                            struct solver_scene **scene, struct solver_error *error)
+{
+    return load(path, text, overrides, override_count, scene, error);
 }
 
 void solver_scene_free(struct solver_scene *scene)

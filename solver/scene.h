@@ -281,6 +281,10 @@ struct solver_scene {
  * written {1,2,3}). Errors name file and key and say what was expected. On failure *scene is NULL. */
 bool solver_scene_load(const char *path, const char *const *overrides, size_t override_count,
                        struct solver_scene **scene, struct solver_error *error);
+/* The same of a text in memory, such as a record or a checkpoint holds, under the path that it once had: nothing is
+ * read from there. */
+bool solver_scene_load_text(const char *path, const char *text, const char *const *overrides, size_t override_count,
+                            struct solver_scene **scene, struct solver_error *error);
 void solver_scene_free(struct solver_scene *scene);
 
 /* Whether its material flows plastically. */

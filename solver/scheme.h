@@ -13,6 +13,7 @@
 #include <stddef.h>
 
 struct solver_faces;
+struct solver_keeper;
 
 /* What a run gives its scheme. It belongs to the run and outlives the scheme's system. */
 struct solver_body {
@@ -94,6 +95,8 @@ struct solver_scheme {
     double (*energy)(const void *system, size_t particle);
     /* Plastic work per unit reference volume since the start [J/m^3]; NULL: the scheme knows no plastic flow. */
     double (*dissipated)(const void *system, size_t particle);
+    /* What outlives a step and is not a field, for checkpoints (keep.h); NULL: there is nothing. */
+    bool (*keep)(void *system, struct solver_keeper *keeper, struct solver_error *error);
 };
 
 /* The table, ends with NULL. */

@@ -391,6 +391,13 @@ static double energy(const void *of, size_t a)
     return (square / (4.0 * of_a->mu) + p * p / (2.0 * of_a->kappa)) * of_a->rho / system->work.rho[a];
 }
 
+/* Which pairs are listed; room and records of pairs come with the next evaluation. */
+static bool keep(void *of, struct solver_keeper *keeper, struct solver_error *error)
+{
+    struct system *system = of;
+    return solver_skin_keep(&system->skin, "neighbours", keeper, error);
+}
+
 static const struct solver_scheme_choice choices[] = {
     {"ulsph.gradient", "corrected by the matrix L, or plain"},
     {"ulsph.dissipation", "riemann (R), viscosity (AV) or none"},
@@ -419,4 +426,5 @@ const struct solver_scheme solver_scheme_ulsph = {
     .complaint = complaint,
     .look = look,
     .energy = energy,
+    .keep = keep,
 };

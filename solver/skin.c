@@ -1,5 +1,6 @@
 #include "solver/skin.h"
 
+#include "solver/keep.h"
 #include "solver/memory.h"
 
 #include <math.h>
@@ -65,6 +66,14 @@ static bool fail_lost(const struct solver_skin *skin, const double *x, size_t la
                        dim > 1 ? X[1] : 0.0, dim > 2 ? X[2] : 0.0);
 }
 
+/* Lists the pairs of particles at x. */
+static bool list(struct solver_skin *skin, const double *x, size_t lanes, struct solver_error *error)
+{
+    struct solver_points now = {
+        .dim = skin->cloud->dim, .count = skin->cloud->count, .stride = lanes, .x = x, .body = skin->cloud->body};
+    return solver_graph_update(&skin->graph, &now, skin->which, skin->radius + skin->margin, error);
+}
+
 bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes, struct solver_error *error)
 {
     size_t dim = (size_t)skin->cloud->dim;
@@ -76,11 +85,9 @@ bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes,
     if (skin->updates > 0 && 4.0 * most <= skin->margin * skin->margin) {
         return true;
     }
-    struct solver_points now = {
-        .dim = skin->cloud->dim, .count = skin->cloud->count, .stride = lanes, .x = x, .body = skin->cloud->body};
     size_t updates = skin->updates;
     skin->updates = 0; /* there is no list, should this fail */
-    if (!solver_graph_update(&skin->graph, &now, skin->which, skin->radius + skin->margin, error)) {
+    if (!list(skin, x, lanes, error)) {
         return false;
     }
     for (size_t a = 0; a < skin->cloud->count; a++) {
@@ -88,6 +95,15 @@ bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes,
     }
     skin->updates = updates + 1;
     return true;
+}
+
+bool solver_skin_keep(struct solver_skin *skin, const char *name, struct solver_keeper *keeper,
+                      struct solver_error *error)
+{
+    size_t dim = (size_t)skin->cloud->dim;
+    return solver_keep(keeper, name, skin->built, skin->cloud->count * dim * sizeof *skin->built, error) &&
+           solver_keep(keeper, "how often listed", &skin->updates, sizeof skin->updates, error) &&
+           (!keeper->reads || skin->updates == 0 || list(skin, skin->built, dim, error));
 }
 
 size_t solver_skin_pairs(const struct solver_skin *skin)

@@ -7,6 +7,8 @@
 #include "solver/cloud.h"
 #include "solver/graph.h"
 
+struct solver_keeper;
+
 struct solver_skin {
     const struct solver_cloud *cloud;
     double radius, margin; /* [m] */
@@ -22,6 +24,9 @@ void solver_skin_free(struct solver_skin *skin);
 /* Makes the list fit the positions x, padded vectors of `lanes` [m]. SOLVER_BROKE_DOWN, the particle named, where one
  * is not finite. After a failure there may be no list; the next call makes it. */
 bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes, struct solver_error *error);
+/* For checkpoints (keep.h): the same list again, so that a run tells of as many pairs as if it had never stopped. */
+bool solver_skin_keep(struct solver_skin *skin, const char *name, struct solver_keeper *keeper,
+                      struct solver_error *error);
 /* Pairs of the list, both ways. */
 size_t solver_skin_pairs(const struct solver_skin *skin);
 size_t solver_skin_bytes(const struct solver_skin *skin);

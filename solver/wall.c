@@ -1,5 +1,6 @@
 #include "solver/wall.h"
 
+#include "solver/keep.h"
 #include "solver/memory.h"
 
 #include <math.h>
@@ -189,4 +190,9 @@ void solver_wall_end(struct solver_wall *wall)
     for (size_t i = 0; i < wall->dim; i++) {
         wall->impulse[i] += wall->stepping[i];
     }
+}
+
+bool solver_wall_keep(struct solver_wall *wall, struct solver_keeper *keeper, struct solver_error *error)
+{
+    return wall->count == 0 || solver_keep(keeper, "impulse on the wall", wall->impulse, sizeof wall->impulse, error);
 }

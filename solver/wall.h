@@ -53,5 +53,7 @@ void solver_wall_stop(struct solver_wall *wall, const struct solver_state *state
                       const struct solver_integrator *integrator, int stage);
 /* Of a step that has not failed: its impulse is final. */
 void solver_wall_end(struct solver_wall *wall);
+/* For checkpoints (keep.h). */
+bool solver_wall_keep(struct solver_wall *wall, struct solver_keeper *keeper, struct solver_error *error);
 
 #endif

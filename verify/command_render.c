@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* Splits "KEY=value\n" lines in place; the command line's overrides follow, and so win. */
 static bool gather_overrides(char *lines, const struct verify_options *options,
@@ -24,24 +23,16 @@ static bool gather_overrides(char *lines, const struct verify_options *options,
     return true;
 }
 
-/* Loads the scene whose text the record holds, by way of a temporary file. */
+/* Loads the scene whose text the record holds. */
 static bool scene_of_record(const struct solver_record *record, const struct verify_options *options,
                             struct solver_scene **scene, struct solver_error *error)
 {
     const char *override[2 * VERIFY_OVERRIDES];
+    char path[VERIFY_PATH];
     size_t count = 0;
-    if (!gather_overrides(record->overrides, options, override, &count, error)) {
-        return false;
-    }
-    char path[] = "/tmp/assay-scene-XXXXXX.lua";
-    int file = mkstemps(path, 4);
-    if (file < 0 || close(file) != 0) {
-        return solver_fail(error, SOLVER_IO, "%s: cannot write the record's scene there", path);
-    }
-    bool done = verify_file_write(path, record->scene_text, strlen(record->scene_text), error) &&
-                solver_scene_load(path, override, count, scene, error);
-    (void)unlink(path);
-    return done;
+    (void)snprintf(path, sizeof path, "%.*s.lua", SOLVER_NAME - 1, record->scene_name);
+    return gather_overrides(record->overrides, options, override, &count, error) &&
+           solver_scene_load_text(path, record->scene_text, override, count, scene, error);
 }
 
 /* --output, or the record's name with .png in place of its ending. */

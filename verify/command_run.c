@@ -3,6 +3,7 @@
 #include "verify/find.h"
 #include "verify/picture.h"
 #include "verify/report.h"
+#include "verify/restart.h"
 #include "verify/simulate.h"
 #include "verify/terminal.h"
 #include "verify/trade_pick.h"
@@ -10,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void print_facts(const struct solver_scene *scene, const struct solver_facts *facts)
 {
@@ -57,14 +59,34 @@ static bool judge(const struct solver_scene *scene, struct solver_run *run, cons
     return true;
 }
 
-/* `pick`: NULL, or what the configuration was picked by; its gates are then judged. */
-static bool run_scene(struct solver_scene *scene, const struct verify_options *options, struct verify_pick *pick,
-                      struct solver_error *error)
-{
+/* A scene, where its results go, and the command line that its record holds. */
+struct work {
+    struct solver_scene *scene;
+    struct verify_keeping keeping;
     char folder[VERIFY_PATH];
+    char line[VERIFY_COMMAND_LINE];
+};
+
+static bool open_work(struct work *work, const struct verify_options *options, struct solver_error *error)
+{
+    work->keeping.every = options->checkpoint;
+    if (options->restart != NULL) {
+        return verify_restart_open(options, &work->scene, &work->keeping, work->line, error) &&
+               verify_restart_folder(options, work->folder, error);
+    }
+    memcpy(work->line, options->line, sizeof work->line);
+    return verify_scene_open(options, 0, &work->scene, error) &&
+           verify_out_folder(options, work->scene->name, work->folder, error);
+}
+
+/* `pick`: NULL, or what the configuration was picked by; its gates are then judged. */
+static bool run_scene(struct work *work, struct verify_pick *pick, struct solver_error *error)
+{
+    struct solver_scene *scene = work->scene;
     struct solver_run *run = NULL;
-    if (!verify_out_folder(options, scene->name, folder, error) ||
-        !verify_simulate(scene, folder, options->line, pick != NULL ? verify_pick_take : NULL, pick, &run, error)) {
+    bool ran = pick != NULL ? verify_simulate(scene, work->folder, work->line, verify_pick_take, pick, &run, error)
+                            : verify_simulate_kept(scene, work->folder, work->line, &work->keeping, &run, error);
+    if (!ran) {
         return false;
     }
     const struct solver_facts facts = solver_run_facts(run);
@@ -73,16 +95,17 @@ static bool run_scene(struct solver_scene *scene, const struct verify_options *o
     if (history->count > 0) {
         verify_terminal_totals(stdout, scene, &history->totals[0], &history->totals[history->count - 1]);
     }
-    bool kept = judge(scene, run, &facts, error) && keep(scene, run, folder, options->line, error) &&
+    bool kept = judge(scene, run, &facts, error) && keep(scene, run, work->folder, work->line, error) &&
                 (pick == NULL || verify_pick_judge(pick, scene, run, error));
     solver_run_free(run);
     return kept;
 }
 
 /* The scene as the study says that it reaches the error; its oracle judges. */
-static bool run_picked(const struct solver_scene *scene, const struct verify_options *options, struct verify_pick *pick,
+static bool run_picked(struct work *work, const struct verify_options *options, struct verify_pick *pick,
                        struct solver_error *error)
 {
+    struct solver_scene *scene = work->scene;
     struct solver_scene *picked = NULL;
     bool done = verify_pick_open(options, scene, pick, error) &&
                 verify_scene_open(&pick->options, pick->run.n, &picked, error) &&
@@ -90,7 +113,8 @@ static bool run_picked(const struct solver_scene *scene, const struct verify_opt
                 (pick->truth.proven ||
                  solver_fail(error, SOLVER_BAD_INPUT, "%s: the oracle does not prove itself; assay verify says where",
                              scene->path)) &&
-                run_scene(picked, options, pick, error);
+                (work->scene = picked) != NULL && run_scene(work, pick, error);
+    work->scene = scene;
     if (done) {
         verify_print_gates(stdout, &pick->gates);
         (void)printf("%s\n", pick->gates.pass
@@ -102,29 +126,48 @@ static bool run_picked(const struct solver_scene *scene, const struct verify_opt
 }
 
 /* The same, with room for all it needs; *passed: both gates do. */
-static bool pick_and_run(const struct solver_scene *scene, const struct verify_options *options, bool *passed,
+static bool pick_and_run(struct work *work, const struct verify_options *options, bool *passed,
                          struct solver_error *error)
 {
     struct verify_pick *pick = calloc(1, sizeof *pick);
     if (pick == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "no memory for a study");
     }
-    bool done = run_picked(scene, options, pick, error);
+    bool done = run_picked(work, options, pick, error);
     *passed = pick->gates.pass;
     verify_pick_free(pick);
     free(pick);
     return done;
 }
 
+/* Options that go together. */
+static bool check(const struct verify_options *options, struct solver_error *error)
+{
+    bool checkpoints = options->restart != NULL || options->checkpoint.steps > 0 || options->checkpoint.seconds > 0.0;
+    if (options->study != NULL && options->error == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "--study says nothing without --error");
+    }
+    if (options->error != NULL && checkpoints) {
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "--error goes with neither --checkpoint nor --restart: what was picked is judged as a whole");
+    }
+    return true;
+}
+
 int verify_command_run(const struct verify_options *options)
 {
     struct solver_error error = {.code = SOLVER_OK};
-    struct solver_scene *scene = NULL;
-    bool passed = true, done = options->study == NULL || options->error != NULL ||
-                               solver_fail(&error, SOLVER_BAD_INPUT, "--study says nothing without --error");
-    done = done && verify_scene_open(options, 0, &scene, &error) &&
-           (options->error != NULL ? pick_and_run(scene, options, &passed, &error)
-                                   : run_scene(scene, options, NULL, &error));
-    solver_scene_free(scene);
+    struct work *work = calloc(1, sizeof *work);
+    bool passed = true;
+    if (work == NULL) {
+        (void)solver_fail(&error, SOLVER_NO_MEMORY, "no memory for a run");
+        return verify_complain(&error);
+    }
+    bool done = check(options, &error) && open_work(work, options, &error) &&
+                (options->error != NULL ? pick_and_run(work, options, &passed, &error) : run_scene(work, NULL, &error));
+    solver_checkpoint_free(work->keeping.from);
+    solver_scene_free(work->scene);
+    free(work);
     return !done ? verify_complain(&error) : passed ? VERIFY_PASSED : VERIFY_FAILED;
 }

@@ -2,6 +2,7 @@
 #include "verify/commands.h"
 #include "verify/help.h"
 #include "verify/manual.h"
+#include "verify/signals.h"
 #include "verify/suggest.h"
 
 #include <stdio.h>
@@ -27,8 +28,17 @@ static const struct verify_command commands[] = {
          "--error runs the cheapest configuration that the last assay trade SCENE saw reach the error, says what it\n"
          "took and why, and has the oracle judge this run: exit code 1 if the error is larger than asked for, or\n"
          "another than the study says. It is refused without a study, with one of a scene that has changed since\n"
-         "or of other overrides, and where nothing measured reaches the error.",
-     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_OUT | VERIFY_TAKES_ERROR | VERIFY_TAKES_STUDY,
+         "or of other overrides, and where nothing measured reaches the error.\n\n"
+         "--checkpoint writes SCENE.checkpoint now and then, each in place of the one before. SIGINT (Ctrl-C),\n"
+         "SIGTERM and SIGHUP stop a run after its step; it is kept the same way, if checkpoints were asked for or\n"
+         "it has gone on for five seconds. The message says where, and how to go on:\n\n"
+         "  assay run taylor-bar --checkpoint 10min\n"
+         "  assay run --restart out/taylor-bar/taylor-bar.checkpoint\n\n"
+         "A checkpoint holds the scene and its overrides; nothing else is needed. The run that goes on gives the\n"
+         "same bytes as one that was never stopped, for any number of threads (--set threads=N, and no other key).\n"
+         "Results go to the checkpoint's folder unless --out says otherwise. One of another version of the program\n"
+         "is refused, and one whose scene's file has changed since, unless --as-stored is given.",
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_OUT | VERIFY_TAKES_ERROR | VERIFY_TAKES_STUDY | VERIFY_TAKES_CHECKPOINT,
      .least = 1,
      .most = 1,
      .run = verify_command_run},
@@ -115,13 +125,15 @@ static const struct verify_command commands[] = {
     {.name = "extremes",
      .operands = "[NAME]",
      .summary = "where each scheme works, and the nearest value at which it fails",
-     .help = "Drives one quantity after the other until runs no longer hold, most by bisection, and prints the last\n"
-             "value that holds beside the nearest that fails, what is to be expected, and why it fails. NAME is one of\n"
-             "cfl, scale, place, alternating, spin, vibration; without it all are measured. --set goes to every run.\n\n"
-             "  assay extremes scale\n"
-             "  assay extremes cfl --json cfl.json\n\n"
-             "Exit code: 0 all bounds hold; 1 one does not; 2 a word or a file is wrong; 3 a run that had to end broke\n"
-             "down.",
+     .help =
+         "Drives one quantity after the other until runs no longer hold, most by bisection, and prints the last\n"
+         "value that holds beside the nearest that fails, what is to be expected, and why it fails. NAME is one of\n"
+         "cfl, scale, place, alternating, spin, vibration, poisson, stretch, perturbed, impact, contrast, small;\n"
+         "without it all are measured. --set goes to every run.\n\n"
+         "  assay extremes scale\n"
+         "  assay extremes cfl --json cfl.json\n\n"
+         "Exit code: 0 all bounds hold; 1 one does not; 2 a word or a file is wrong; 3 a run that had to end broke\n"
+         "down.",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_JSON,
      .most = 1,
      .run = verify_command_extremes},
@@ -155,7 +167,7 @@ static void print_help(FILE *file)
     }
     (void)fprintf(file, "\nassay COMMAND --help says more. A first one to try:\n\n  assay verify swinging-cube\n\n"
                         "Exit codes: 0 all is well, 1 a gate or a comparison fails, 2 the command line, a scene or a\n"
-                        "file is wrong, 3 the run itself failed.\n");
+                        "file is wrong, 3 the run itself failed, 128 + N a signal N stopped it.\n");
 }
 
 static const struct verify_command *find(const char *name)
@@ -225,5 +237,7 @@ int main(int argc, char **argv)
         verify_options_help(stdout, command);
         return VERIFY_PASSED;
     }
-    return flushed(command->run(&options));
+    verify_signals_prepare();
+    int code = command->run(&options);
+    return code == VERIFY_STOPPED ? verify_signals_follow() : flushed(code);
 }

@@ -48,6 +48,10 @@ static const struct option options_table[] = {
     {"--output", "-o", "FILE", "FILE.h5 or FILE.csv (default: a table on standard output)", VERIFY_TAKES_TABLE},
     {"--mutations", NULL, NULL, "no scene: what is told wrongly on purpose, and which gate notices",
      VERIFY_TAKES_MUTATIONS},
+    {"--checkpoint", "-c", "PACE", "write SCENE.checkpoint every so often: 500 (steps), 30s, 10min, 2h",
+     VERIFY_TAKES_CHECKPOINT},
+    {"--restart", "-r", "FILE", "no SCENE: go on from a checkpoint", VERIFY_TAKES_CHECKPOINT},
+    {"--as-stored", NULL, NULL, "with --restart: although the scene's file has changed since", VERIFY_TAKES_CHECKPOINT},
     {"--help", "-h", NULL, "this text", 0},
 };
 enum { OPTIONS = sizeof options_table / sizeof *options_table };
@@ -242,6 +246,25 @@ static bool apply_to_judge(const struct verify_command *command, const struct op
     }
 }
 
+/* Options of what keeps a run on disk, and of what goes on from there. */
+static bool apply_to_checkpoints(const struct verify_command *command, const struct option *option, const char *value,
+                                 struct verify_options *options, struct solver_error *error)
+{
+    if (strcmp(option->name, "--restart") == 0) {
+        return once(command, option, &options->restart, value, error);
+    }
+    if (option->value == NULL) {
+        options->as_stored = true;
+        return true;
+    }
+    if (options->checkpoint.steps > 0 || options->checkpoint.seconds > 0.0) {
+        return bad(error, command, option->name, "given twice");
+    }
+    return verify_pace_read(value, &options->checkpoint) ||
+           bad(error, command, value,
+               "--checkpoint wants a number of steps, or a time in s, min or h, as in 500, 30s, 10min");
+}
+
 static bool apply(const struct verify_command *command, const struct option *option, const char *value,
                   struct verify_options *options, struct solver_error *error)
 {
@@ -272,17 +295,19 @@ static bool apply(const struct verify_command *command, const struct option *opt
         return once(command, option, &options->study, value, error);
     case VERIFY_TAKES_BUDGET:
         return read_budget(command, value, options, error);
+    case VERIFY_TAKES_CHECKPOINT:
+        return apply_to_checkpoints(command, option, value, options, error);
     default:
         return apply_to_judge(command, option, value, options, error);
     }
 }
 
-static void keep_line(const struct verify_command *command, int count, char *const *words, char *line)
+/* Appends words to the command line that the record will hold; none of an option that no result depends on. */
+static void keep_words(const struct option *option, int count, char *const *words, char *line)
 {
-    int used = snprintf(line, VERIFY_COMMAND_LINE, "assay %s", command->name);
-    for (int i = 0; i < count && used < VERIFY_COMMAND_LINE; i++) {
-        size_t room = VERIFY_COMMAND_LINE - (size_t)used;
-        used += snprintf(line + used, room, " %s", words[i]);
+    for (int i = 0; i < count && (option == NULL || strcmp(option->name, "--checkpoint") != 0); i++) {
+        size_t used = strlen(line);
+        (void)snprintf(line + used, VERIFY_COMMAND_LINE - used, " %s", words[i]);
     }
 }
 
@@ -300,15 +325,17 @@ bool verify_options_parse(const struct verify_command *command, int count, char 
                           struct verify_options *options, struct solver_error *error)
 {
     *options = (struct verify_options){.operand_count = 0};
-    keep_line(command, count, words, options->line);
+    (void)snprintf(options->line, VERIFY_COMMAND_LINE, "assay %s", command->name);
     bool words_only = false; /* after "--" */
     for (int i = 0; i < count; i++) {
         const char *word = words[i];
         if (!words_only && strcmp(word, "--") == 0) {
             words_only = true;
+            keep_words(NULL, 1, words + i, options->line);
             continue;
         }
         if (words_only || word[0] != '-' || word[1] == '\0') {
+            keep_words(NULL, 1, words + i, options->line);
             if (!read_operand(command, word, options, error)) {
                 return false;
             }
@@ -320,6 +347,7 @@ bool verify_options_parse(const struct verify_command *command, int count, char 
             return unknown(command, word, error);
         }
         bool attached = word[length] == '=';
+        int first = i;
         const char *value = attached ? word + length + 1 : "";
         if (option->value == NULL && attached) {
             return bad(error, command, word, "takes no value");
@@ -331,6 +359,7 @@ bool verify_options_parse(const struct verify_command *command, int count, char 
             }
             value = words[++i];
         }
+        keep_words(option, i - first + 1, words + first, options->line);
         if (!apply(command, option, value, options, error)) {
             return false;
         }
@@ -338,7 +367,13 @@ bool verify_options_parse(const struct verify_command *command, int count, char 
     if (options->mutations && options->operand_count + options->override_count + options->level_count > 0) {
         return bad(error, command, "--mutations", "stands alone: it has scenes and oracles of its own");
     }
-    if (!options->help && !options->mutations && options->operand_count < command->least) {
+    if (options->restart != NULL && options->operand_count > 0) {
+        return bad(error, command, options->operand[0], "with --restart the checkpoint holds the scene");
+    }
+    if (options->as_stored && options->restart == NULL) {
+        return bad(error, command, "--as-stored", "belongs to --restart");
+    }
+    if (!options->help && !options->mutations && options->restart == NULL && options->operand_count < command->least) {
         return solver_fail(error, SOLVER_BAD_INPUT, "assay %s wants %s; see assay %s --help", command->name,
                            command->operands, command->name);
     }
@@ -392,6 +427,8 @@ enum verify_exit verify_exit_code(const struct solver_error *error)
     case SOLVER_BAD_INPUT:
     case SOLVER_IO:
         return VERIFY_BAD_INPUT;
+    case SOLVER_STOPPED:
+        return VERIFY_STOPPED;
     default:
         return VERIFY_RUN_FAILED;
     }

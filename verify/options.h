@@ -4,6 +4,7 @@
 
 #include "solver/error.h"
 #include "solver/scene.h"
+#include "verify/pace.h"
 
 #include <stddef.h>
 #include <stdio.h>
@@ -14,6 +15,7 @@ enum verify_exit {
     VERIFY_FAILED = 1,     /* a gate or a comparison fails */
     VERIFY_BAD_INPUT = 2,  /* command line, scene or file is wrong */
     VERIFY_RUN_FAILED = 3, /* the run itself failed */
+    VERIFY_STOPPED = 128,  /* a signal ended it, whose number is added (signals.h) */
 };
 
 enum { VERIFY_OVERRIDES = 64, VERIFY_OPERANDS = 16, VERIFY_COMMAND_LINE = 2048 };
@@ -42,6 +44,7 @@ enum verify_takes {
     VERIFY_TAKES_ERROR_NAME = 1 << 19, /* --error NAME */
     VERIFY_TAKES_ERROR = 1 << 20,      /* --error [NAME=]BOUND */
     VERIFY_TAKES_STUDY = 1 << 21,      /* --study FILE */
+    VERIFY_TAKES_CHECKPOINT = 1 << 22, /* --checkpoint PACE, --restart FILE in place of any word, --as-stored */
 };
 
 /* What an option that may be repeated was given, in order. */
@@ -68,7 +71,11 @@ struct verify_options {
     bool inside;               /* places outside the body are left out */
     bool help;
     bool mutations;
-    char line[VERIFY_COMMAND_LINE]; /* the command line as typed, for the record */
+    struct verify_pace checkpoint;  /* zeros where not given */
+    const char *restart;            /* NULL where not given */
+    bool as_stored;                 /* the scene's file may have changed since */
+    char line[VERIFY_COMMAND_LINE]; /* the command line as typed, but for --checkpoint, which no result depends on: for
+                                       the record */
 };
 
 /* One command of the program. */

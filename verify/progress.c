@@ -36,8 +36,9 @@ bool verify_progress_show(void *context, double time, double stop, size_t step)
     int width = (int)(sizeof full - 1), filled = (int)(fraction * width);
     (void)fprintf(stderr, "\r\033[K%s: [%.*s%.*s] %3.0f %%, step %zu, t = %.3g s", progress->label, filled, full,
                   width - filled, empty, 100 * fraction, step, time);
-    if (fraction > 0.01) {
-        (void)fprintf(stderr, ", %.0f s to go", (at - progress->begun) * (1 - fraction) / fraction);
+    double here = fraction - progress->from / progress->t_end;
+    if (here > 0.01) {
+        (void)fprintf(stderr, ", %.0f s to go", (at - progress->begun) * (1 - fraction) / here);
     }
     return true;
 }

@@ -8,6 +8,7 @@
 struct verify_progress {
     const char *label;   /* "swinging-cube, n = 24" */
     double t_end;        /* [s] of the whole run, whatever part of it is under way */
+    double from;         /* [s] of the run where it went on from a checkpoint; 0 */
     bool on;             /* standard error is a terminal */
     double begun, shown; /* [s] on the monotonic clock; shown: when the line was last written */
 };

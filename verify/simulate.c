@@ -1,9 +1,11 @@
 #include "verify/simulate.h"
 
 #include "solver/record.h"
+#include "verify/checkpoints.h"
 #include "verify/files.h"
 #include "verify/manufactured.h"
 #include "verify/progress.h"
+#include "verify/signals.h"
 #include "verify/truth.h"
 
 #include <math.h>
@@ -28,9 +30,8 @@ static void keep_last_good(const struct solver_scene *scene, struct solver_run *
     (void)snprintf(stem, sizeof stem, "%s.last-good", scene->name);
     bool kept = verify_record(scene, run, folder, stem, command, path, &why);
     size_t used = strlen(error->text);
-    (void)snprintf(
-        error->text + used, sizeof error->text - used, "%s%.400s",
-        kept ? "; the last good state is in " : "; the last good state could not be kept: ", kept ? path : why.text);
+    (void)snprintf(error->text + used, sizeof error->text - used, "; the last good state %s%.400s%s",
+                   kept ? "is in " : "could not be kept: ", kept ? path : why.text, kept ? ", for assay render" : "");
 }
 
 static bool arrived(const struct solver_scene *scene, struct solver_run *run, struct solver_error *error)
@@ -134,40 +135,142 @@ bool verify_run_create(struct solver_scene *scene, struct solver_run **run, stru
     return done;
 }
 
-/* By way of the snapshots whether anybody takes them or not, so that every command makes the same steps. */
-static bool advance(const struct solver_scene *scene, struct solver_run *run, verify_take *take, void *context,
-                    struct verify_progress *progress, struct solver_error *error)
+/* A run on its way. */
+struct journey {
+    struct solver_scene *scene;
+    struct solver_run *run;
+    const char *folder, *command;
+    struct verify_progress progress;
+    struct verify_checkpoints *checkpoints; /* NULL: it is not kept */
+    bool due;                               /* a checkpoint */
+    bool failing;                           /* the last could not be written, which has been said */
+    double time;                            /* [s] */
+    size_t step;
+};
+
+/* A solver_progress: stops the run where it is to be kept, or to end. */
+static bool watch(void *context, double time, double t_end, size_t step)
 {
+    struct journey *at = context;
+    at->time = time;
+    at->step = step;
+    at->due = at->checkpoints != NULL && verify_checkpoints_due(at->checkpoints, step);
+    (void)verify_progress_show(&at->progress, time, t_end, step);
+    return verify_signals_asked() == 0 && !at->due;
+}
+
+/* A run outlives a full disk; the checkpoint before is still there. */
+static void keep(struct journey *at)
+{
+    struct solver_error why = {.code = SOLVER_OK};
+    bool failed = !verify_checkpoints_write(at->checkpoints, at->run, &why);
+    if (failed && !at->failing) {
+        verify_progress_end(&at->progress);
+        (void)fprintf(stderr, "assay: step %zu: %s; the run goes on\n", at->step, why.text);
+    }
+    at->failing = failed;
+}
+
+static bool stop(struct journey *at, struct solver_error *error)
+{
+    int number = verify_signals_asked();
+    if (at->checkpoints != NULL) {
+        return verify_checkpoints_stop(at->checkpoints, at->run, at->time, number, error);
+    }
+    return solver_fail(
+        error, SOLVER_STOPPED,
+        "%s: stopped by %s at step %zu, t = %.6g s of %.6g s; of runs that are stopped, assay run alone keeps "
+        "anything",
+        at->progress.label, verify_signals_name(number), at->step, at->time, at->scene->t_end);
+}
+
+static bool go_to(struct journey *at, double t, struct solver_error *error)
+{
+    while (at->time < t) {
+        if (!solver_run_to(at->run, t, watch, at, error)) {
+            return false;
+        }
+        if (verify_signals_asked() != 0) {
+            return stop(at, error);
+        }
+        if (at->due) {
+            keep(at);
+        }
+    }
+    return true;
+}
+
+/* By way of the snapshots whether anybody takes them or not, so that every command makes the same steps. */
+static bool advance(struct journey *at, verify_take *take, void *context, struct solver_error *error)
+{
+    const struct solver_scene *scene = at->scene;
     for (size_t i = 0; i < scene->snapshot_count; i++) {
-        if (!solver_run_to(run, scene->snapshot[i], verify_progress_show, progress, error) ||
-            (take != NULL && !take(context, run, error))) {
+        if (!go_to(at, scene->snapshot[i], error) || (take != NULL && !take(context, at->run, error))) {
             return false;
         }
     }
-    return solver_run_to(run, scene->t_end, verify_progress_show, progress, error);
+    return go_to(at, scene->t_end, error);
+}
+
+/* Makes the run, and puts it where it goes on from. */
+static bool begin(struct journey *at, struct solver_checkpoint **from, struct solver_error *error)
+{
+    if (!verify_run_create(at->scene, &at->run, error)) {
+        return false;
+    }
+    if (from == NULL || *from == NULL) {
+        return true;
+    }
+    at->time = at->progress.from = solver_checkpoint_about(*from)->time;
+    at->step = solver_checkpoint_about(*from)->step;
+    bool restored = solver_checkpoint_restore(*from, at->run, error);
+    solver_checkpoint_free(*from);
+    *from = NULL;
+    return restored;
+}
+
+/* From beginning to end. */
+static bool travel(struct journey *at, struct solver_checkpoint **from, verify_take *take, void *context,
+                   struct solver_run **run, struct solver_error *error)
+{
+    char label[SOLVER_NAME + 32];
+    (void)snprintf(label, sizeof label, "%s, n = %d", at->scene->name, at->scene->n);
+    verify_progress_begin(&at->progress, label, at->scene->t_end);
+    bool done = begin(at, from, error);
+    if (done) {
+        verify_signals_watch();
+        done = advance(at, take, context, error);
+        verify_signals_leave();
+    }
+    verify_progress_end(&at->progress);
+    if (!done && at->run != NULL && error->code == SOLVER_BROKE_DOWN) {
+        keep_last_good(at->scene, at->run, at->folder, at->command, error);
+    }
+    if (!done || !arrived(at->scene, at->run, error)) {
+        solver_run_free(at->run);
+        at->run = NULL;
+        done = false;
+    }
+    *run = at->run;
+    return done;
 }
 
 bool verify_simulate(struct solver_scene *scene, const char *folder, const char *command, verify_take *take,
                      void *context, struct solver_run **run, struct solver_error *error)
 {
-    char label[SOLVER_NAME + 32];
-    (void)snprintf(label, sizeof label, "%s, n = %d", scene->name, scene->n);
-    struct verify_progress progress;
-    verify_progress_begin(&progress, label, scene->t_end);
+    struct journey at = {.scene = scene, .folder = folder, .command = command};
+    return travel(&at, NULL, take, context, run, error);
+}
+
+bool verify_simulate_kept(struct solver_scene *scene, const char *folder, const char *command,
+                          struct verify_keeping *keeping, struct solver_run **run, struct solver_error *error)
+{
+    struct verify_checkpoints checkpoints;
+    struct journey at = {.scene = scene, .folder = folder, .command = command, .checkpoints = &checkpoints};
     *run = NULL;
-    if (!verify_run_create(scene, run, error)) {
-        verify_progress_end(&progress);
+    if (!verify_checkpoints_begin(&checkpoints, scene, folder, command, keeping->from, error)) {
         return false;
     }
-    bool done = advance(scene, *run, take, context, &progress, error);
-    verify_progress_end(&progress);
-    if (!done && error->code == SOLVER_BROKE_DOWN) {
-        keep_last_good(scene, *run, folder, command, error);
-    }
-    if (!done || !arrived(scene, *run, error)) {
-        solver_run_free(*run);
-        *run = NULL;
-        return false;
-    }
-    return true;
+    checkpoints.every = keeping->every;
+    return travel(&at, &keeping->from, NULL, NULL, run, error);
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds with the address and undefined-behaviour sanitizers and runs all unit programs, and the program on files that
-# are malformed.
+# are malformed, checkpoints among them.
 # Usage: sanitize.sh SOURCE BUILD
 set -euo pipefail
 source=$1 build=$2
@@ -11,5 +11,6 @@ for program in "$build"/tests/test_*; do
 done
 export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN_OPTIONS=print_stacktrace=1
 # Without what takes minutes: the mutation suites, which run the self-check of the conformance suite again for each fault,
-# and the cantilever's own, some twenty eigenproblems as that suite solves one.
-exec ctest --test-dir "$build" -R '^(unit-|judge-malformed)' -E 'oracles_(mutations|cantilever)' --output-on-failure --no-tests=error --parallel "$(nproc)"
+# and the cantilever's own, some twenty eigenproblems as that suite solves one; nor the restarts of every scene, which
+# test_solver_checkpoint makes of small ones.
+exec ctest --test-dir "$build" -R '^(unit-|judge-malformed|restart-(full|refused|stopped))' -E 'oracles_(mutations|cantilever)|verify_checkpoint' --output-on-failure --no-tests=error --parallel "$(nproc)"

@@ -17,6 +17,7 @@ declare -A skipped=(
   [test_solver_stencil_refusals]="the clouds and stencils of test_solver_stencil, again for each refusal: 40 s"
   [test_solver_run_round]="factorised stencils of balls, and runs on them: minutes"
   [test_solver_stencil_round]="factorised stencils of balls: minutes"
+  [test_verify_checkpoint]="runs of every scene, which test_solver_checkpoint makes of small ones: minutes"
   [test_solver_run_momentum]="a thousand steps of each run of test_solver_run: 90 s"
 )
 # Of these, one test.
@@ -27,6 +28,7 @@ declare -A only=(
   [test_verify_plasticity]="return maps along finite uniaxial cycles are exact" # others: runs through whole cycles
   [test_solver_run_plastic]="a step taken back"              # others: runs of hundreds of steps
   [test_solver_run_angular]="forces have no resultant"       # others: a thousand steps, many times
+  [test_solver_checkpoint]="every evolved set"               # others: more of the same, for tens of steps
   [test_solver_wall]="oblique wall"                          # others: every integrator in every dimension
   [test_verify_manufactured]="body force"                    # others: the self-checks of all kinds, by quadrature
   [test_solver_rotation]="cells and their stress through a turn, 2D"     # others: more of the same

@@ -17,14 +17,14 @@ static void seal(void)
     FILE *file = fopen(path, "rb");
     CU_ASSERT_FATAL(file != NULL && stat(path, &about) == 0);
     const size_t size = (size_t)about.st_size;
-    unsigned char *bytes = malloc(size + RECORD_SEAL_SIZE);
+    unsigned char *bytes = malloc(size + SOLVER_SEAL_SIZE);
     CU_ASSERT_FATAL(bytes != NULL && fread(bytes, 1, size, file) == size);
     (void)fclose(file);
-    const uint64_t sum = record_checksum(RECORD_CHECKSUM_SEED, bytes, size);
-    memcpy(bytes + size, RECORD_SEAL, 8);
+    const uint64_t sum = solver_seal_sum(SOLVER_SEAL_SEED, bytes, size);
+    memcpy(bytes + size, SOLVER_SEAL, 8);
     memcpy(bytes + size + 8, &sum, sizeof sum);
     struct solver_error error;
-    CU_ASSERT(solver_file_replace(path, bytes, size + RECORD_SEAL_SIZE, &error));
+    CU_ASSERT(solver_file_replace(path, bytes, size + SOLVER_SEAL_SIZE, &error));
     free(bytes);
 }
 
