@@ -79,7 +79,8 @@ static double round_particles(lua_State *L, const struct solver_scene *scene, co
 static double count_particles(lua_State *L, const struct solver_scene *scene, const char *key, double n)
 {
     double particles = 0;
-    if (scene->shape_count == 0 && scene->domain.kind != SOLVER_SHAPE_BOX)
+    bool boxed = scene->domain.kind == SOLVER_SHAPE_BOX || scene->domain.kind == SOLVER_SHAPE_SOLID;
+    if (scene->shape_count == 0 && !boxed)
         return round_particles(L, scene, key, n);
     if (scene->shape_count == 0)
         return box_particles(L, scene, key, n, "", scene->lower, scene->upper);

@@ -2,12 +2,13 @@
 #ifndef SOLVER_SHAPE_H
 #define SOLVER_SHAPE_H
 
-/* Those up to the cylinder are possible domains. A disc and a ring lie in 2D, a ball and a cylinder in 3D. */
+/* All but the ring are possible domains. A disc and a ring lie in 2D, a ball and a cylinder in 3D. */
 enum solver_shape_kind {
     SOLVER_SHAPE_BOX,
     SOLVER_SHAPE_DISC,
     SOLVER_SHAPE_BALL,
     SOLVER_SHAPE_CYLINDER, /* along Z */
+    SOLVER_SHAPE_SOLID,    /* where a distance is negative, within a box (solid.h) */
     SOLVER_SHAPE_RING
 };
 

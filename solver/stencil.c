@@ -128,7 +128,7 @@ bool solver_stencil_create(const struct solver_stencil_builder *builder, const s
     }
     if (builder->lattice_only && cloud->site == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT,
-                           "stencil: %s works along the lines of a box's lattice, and a round body has none; expected "
+                           "stencil: %s works along the lines of a box's lattice, and a body of another shape has none; expected "
                            "closed, or another stencil for any cloud",
                            builder->name);
     }
