@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double sliver = 0.1; /* of a cell's volume: a particle with less is left out */
+static const double sliver = 0.2; /* of the share of a box's particle: one with less is left out */
+static const double least = 0.15; /* of a cell: a particle at a sharp edge is given as much */
 static const double steep = 1.05; /* change of the distance over the way: more than 1 but for round-off and rounding */
 static const double reach = 1.5;  /* spacings from the surface to the particle that carries it */
 enum { TRIES = 6 };
@@ -20,8 +21,8 @@ enum { TRIES = 6 };
 
 static bool lay_out(const struct solver_solid *solid, struct solid_grid *grid, struct solver_error *error)
 {
-    *grid =
-        (struct solid_grid){.solid = solid, .dim = (size_t)solid->dim, .cells = {0}, .points = {1, 1, 1}, .nodes = 1};
+    *grid = (struct solid_grid){
+        .solid = solid, .dim = (size_t)solid->dim, .cells = {0}, .points = {1, 1, 1}, .nodes = 1, .cell_count = 1};
     if (solid->dim < 2 || solid->dim > 3) {
         return solver_fail(error, SOLVER_BAD_INPUT, "domain: a solid lies in 2D or 3D; got dim = %d", solid->dim);
     }
@@ -41,6 +42,7 @@ static bool lay_out(const struct solver_solid *solid, struct solid_grid *grid, s
         grid->cells[axis] = (uint32_t)lround(spacings);
         grid->points[axis] = grid->cells[axis] + 1;
         grid->nodes *= grid->points[axis];
+        grid->cell_count *= grid->cells[axis];
         if (grid->nodes > INT32_MAX) {
             return solver_fail(error, SOLVER_BAD_INPUT, "n: a lattice of more than 2^31 nodes; choose a smaller n");
         }
@@ -56,7 +58,8 @@ static bool reserve_grid(struct solid_grid *grid, struct solver_error *error)
            solver_alloc((void **)&grid->kept, nodes, sizeof *grid->kept, "nodes", error) &&
            solver_alloc((void **)&grid->moved, nodes, sizeof *grid->moved, "nodes", error) &&
            solver_alloc((void **)&grid->dropped, nodes, sizeof *grid->dropped, "nodes", error) &&
-           solver_alloc((void **)&grid->particle, nodes, sizeof *grid->particle, "particles of nodes", error);
+           solver_alloc((void **)&grid->particle, nodes, sizeof *grid->particle, "particles of nodes", error) &&
+           solver_alloc((void **)&grid->divided, grid->cell_count, sizeof *grid->divided, "cells", error);
 }
 
 static void free_grid(struct solid_grid *grid)
@@ -67,6 +70,8 @@ static void free_grid(struct solid_grid *grid)
     free(grid->moved);
     free(grid->dropped);
     free(grid->particle);
+    free(grid->divided);
+    free(grid->value);
 }
 
 static void node_place(const struct solid_grid *grid, size_t node, double X[3])
@@ -159,13 +164,16 @@ static void free_shares(struct solid_shares *shares)
     free(shares->face);
 }
 
-/* Marks nodes whose share is too small; returns how many. */
+/* Marks nodes whose share is too small for how they lie, on a face or an edge; returns how many. */
 static size_t drop_slivers(struct solid_grid *grid, const struct solid_shares *shares)
 {
-    double least = sliver * pow(grid->solid->spacing, (double)grid->dim);
+    double cube = pow(grid->solid->spacing, (double)grid->dim);
     size_t found = 0;
     for (size_t node = 0; node < grid->nodes; node++) {
-        if (grid->kept[node] && shares->V[grid->particle[node]] < least) {
+        uint32_t at[3];
+        solid_at(grid, node, at);
+        int sides = __builtin_popcount(solid_faces(grid, at)) + (grid->moved[node] ? 1 : 0);
+        if (grid->kept[node] && shares->V[grid->particle[node]] < sliver * ldexp(cube, -sides)) {
             grid->dropped[node] = true;
             found++;
         }
@@ -174,6 +182,28 @@ static size_t drop_slivers(struct solid_grid *grid, const struct solid_shares *s
 }
 
 /* --- volumes and areas --- */
+
+/* Least volume of a particle, over that of a cell, by the faces of the box on which it lies. */
+static double least_volume(const struct solid_grid *grid, size_t node)
+{
+    uint32_t at[3];
+    solid_at(grid, node, at);
+    int faces = __builtin_popcount(solid_faces(grid, at));
+    return ldexp(least, faces > 1 ? 1 - faces : 0);
+}
+
+/* Particles at sharp edges have little volume and much surface, which makes them stiff: they are given a little more.
+ * The correction of moments takes it from all. */
+static void raise_small(const struct solid_grid *grid, struct solid_shares *shares)
+{
+    double cube = pow(grid->solid->spacing, (double)grid->dim);
+    for (size_t node = 0; node < grid->nodes; node++) {
+        if (grid->kept[node]) {
+            double *V = &shares->V[grid->particle[node]];
+            *V = fmax(*V, least_volume(grid, node) * cube);
+        }
+    }
+}
 
 static double surface_size(const struct solid_shares *shares, size_t a)
 {
@@ -366,10 +396,7 @@ static bool list_cells(const struct solid_grid *grid, struct solver_cloud *cloud
                                           {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
     size_t corners = (size_t)1 << grid->dim;
     uint32_t *stands = NULL;
-    size_t cells = 1;
-    for (size_t axis = 0; axis < grid->dim; axis++) {
-        cells *= grid->cells[axis];
-    }
+    size_t cells = grid->cell_count;
     free(cloud->cell);
     cloud->cell = NULL;
     bool good = solver_alloc((void **)&stands, grid->nodes, sizeof *stands, "corners of cells", error) &&
@@ -402,10 +429,13 @@ static bool list_cells(const struct solid_grid *grid, struct solver_cloud *cloud
 static bool make(struct solid_grid *grid, struct solver_cloud *cloud, bool *again, struct solver_error *error)
 {
     struct solid_shares shares = {.V = NULL};
-    bool good = solid_place(grid, error) && gather(grid, cloud, error) && reserve_shares(&shares, grid->count, error) &&
-                solid_share(grid, &shares, error);
+    bool good = solid_place(grid, error) && gather(grid, cloud, error) && reserve_shares(&shares, grid->count, error);
+    if (good) {
+        solid_share(grid, &shares);
+    }
     *again = good && *again && drop_slivers(grid, &shares) > 0;
     if (good && !*again) {
+        raise_small(grid, &shares);
         good = check_shares(grid, &shares, error) && finish(grid, &shares, cloud, error) &&
                measure_places(grid, cloud->quality, error) && list_cells(grid, cloud, error);
     }
@@ -422,7 +452,7 @@ bool solver_cloud_solid(const struct solver_solid *solid, struct solver_cloud **
         return false;
     }
     bool again = true;
-    bool good = reserve_grid(&grid, error) && measure_distances(&grid, error);
+    bool good = reserve_grid(&grid, error) && measure_distances(&grid, error) && solid_divide(&grid, error);
     for (int round = 1; good && again; round++) {
         again = round < TRIES;
         solver_cloud_free(cloud);

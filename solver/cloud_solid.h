@@ -5,16 +5,22 @@
 #include "solver/cloud_internal.h"
 #include "solver/solid.h"
 
-#define SOLID_NONE UINT32_MAX
+#define SOLID_NONE    UINT32_MAX
+#define SOLID_OUTSIDE (UINT32_MAX - 1) /* a cell */
+#define SOLID_WHOLE   (UINT32_MAX - 2) /* a cell that lies within the body */
 
-enum { SOLID_PARTS = 4 }; /* of a cell along each axis, where the surface is looked for */
+enum {
+    SOLID_PARTS = 4, /* of a cell along each axis, where the surface is looked for */
+    SOLID_LINE = SOLID_PARTS + 1,
+    SOLID_VALUES = SOLID_LINE * SOLID_LINE * SOLID_LINE
+};
 
 /* The lattice over the box, with what lies at its nodes. */
 struct solid_grid {
     const struct solver_solid *solid;
     size_t dim;
     uint32_t cells[3], points[3]; /* 0 and 1 beyond dim */
-    size_t nodes;
+    size_t nodes, cell_count;
     double *distance;   /* [nodes] [m] */
     double (*X)[3];     /* [nodes] where the node's particle lies [m] */
     bool *kept;         /* [nodes] there is a particle */
@@ -22,6 +28,9 @@ struct solid_grid {
     bool *dropped;      /* [nodes] there must be none: its share was too small */
     uint32_t *particle; /* [nodes] SOLID_NONE: there is none */
     size_t count;       /* particles */
+    uint32_t *divided;  /* [cells] place in `value` of a cell that is divided; SOLID_WHOLE, SOLID_OUTSIDE */
+    size_t value_count, value_room;
+    double (*value)[SOLID_VALUES]; /* [value_count] distances within divided cells [m] */
 };
 
 /* Shares of particles: what of the body and its surface is nearest to each. */
@@ -73,8 +82,10 @@ uint32_t solid_faces(const struct solid_grid *grid, const uint32_t at[3]);
 bool solid_place(struct solid_grid *grid, struct solver_error *error);
 /* Moves X [m] along the free axes onto the surface; false with `found` true never happens: false is an error. */
 bool solid_project(const struct solid_grid *grid, uint32_t faces, double X[3], bool *found, struct solver_error *error);
+/* Looks which cells the surface may pass, and measures distances within them: cloud_solid_share.c. */
+bool solid_divide(struct solid_grid *grid, struct solver_error *error);
 /* Shares of the particles: cloud_solid_share.c. */
-bool solid_share(const struct solid_grid *grid, struct solid_shares *shares, struct solver_error *error);
+void solid_share(const struct solid_grid *grid, struct solid_shares *shares);
 /* The node within two of the given one whose particle, among those `of` which it is true, is nearest to X; SIZE_MAX. */
 typedef bool solid_which(const struct solid_grid *grid, size_t node, uint32_t face);
 size_t solid_nearest(const struct solid_grid *grid, const uint32_t at[3], const double X[3], solid_which *which,

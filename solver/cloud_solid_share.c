@@ -6,19 +6,17 @@
  * moments satisfy the divergence theorem to round-off. Each piece goes to the particle that is nearest to its centroid:
  * pieces of volume to any, pieces of the surface to one that lies on it, pieces of a face of the box to one on that. */
 #include "solver/cloud_solid.h"
-#include "solver/memory.h"
 #include "solver/simplex.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
-
-enum { LINE = SOLID_PARTS + 1 };
 
 struct cell {
     const struct solid_grid *grid;
     struct solid_shares *shares;
     uint32_t at[3];
-    double value[LINE * LINE * LINE];
+    const double *value; /* [SOLID_VALUES] [m] */
 };
 
 static bool any(const struct solid_grid *grid, size_t node, uint32_t face)
@@ -145,7 +143,7 @@ static void cut_simplex(const struct cell *cell, const uint32_t part[3], size_t 
                                   : (along == 0 ? 1U << (2 * axis) : 0U) |
                                         (along == cell->grid->cells[axis] * SOLID_PARTS ? 2U << (2 * axis) : 0U);
         }
-        value[c] = cell->value[(in[2] * LINE + in[1]) * LINE + in[0]];
+        value[c] = cell->value[(in[2] * SOLID_LINE + in[1]) * SOLID_LINE + in[0]];
         faces &= at_end;
     }
     simplex_cut(size, corner, value, &inside, &cut);
@@ -167,16 +165,22 @@ static void cut_simplex(const struct cell *cell, const uint32_t part[3], size_t 
 }
 
 /* The simplices of a part: one for each order in which its axes are walked from its lower to its upper corner, and the
- * sides that leave out the first or the last corner, which may lie on faces of the box. */
+ * sides that leave out the first or the last corner, which may lie on faces of the box. In the upper half of the box
+ * an axis is walked the other way, so that the division is its own mirror image. */
 static void cut_part(const struct cell *cell, const uint32_t part[3])
 {
     static const uint32_t order[6][3] = {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {2, 0, 1}, {1, 2, 0}, {2, 1, 0}};
     size_t dim = cell->grid->dim;
+    uint32_t flip[3];
+    for (size_t axis = 0; axis < 3; axis++) {
+        flip[axis] =
+            axis < dim && 2 * (cell->at[axis] * SOLID_PARTS + part[axis]) >= cell->grid->cells[axis] * SOLID_PARTS;
+    }
     for (size_t o = 0; o < (dim == 2 ? 2 : 6); o++) {
-        uint32_t step[4][3] = {{0}};
+        uint32_t step[4][3] = {{flip[0], flip[1], flip[2]}};
         for (size_t c = 0; c < dim; c++) {
             memcpy(step[c + 1], step[c], sizeof step[c]);
-            step[c + 1][order[o][c]]++;
+            step[c + 1][order[o][c]] = 1 - flip[order[o][c]];
         }
         cut_simplex(cell, part, dim + 1, (const uint32_t(*)[3])step);
         cut_simplex(cell, part, dim, (const uint32_t(*)[3])step);
@@ -184,26 +188,9 @@ static void cut_part(const struct cell *cell, const uint32_t part[3])
     }
 }
 
-static bool ask(struct cell *cell, uint32_t i, uint32_t j, uint32_t k, double *value, struct solver_error *error)
-{
-    const struct solver_solid *solid = cell->grid->solid;
-    double X[3] = {solid_along(cell->grid, 0, cell->at[0], i), solid_along(cell->grid, 1, cell->at[1], j),
-                   solid_along(cell->grid, 2, cell->at[2], k)};
-    return solid->distance(solid->context, X, value, error);
-}
-
-static bool divide(struct cell *cell, struct solver_error *error)
+static void share_parts(const struct cell *cell)
 {
     uint32_t deep = cell->grid->dim == 3 ? SOLID_PARTS : 1;
-    for (uint32_t k = 0; k < (cell->grid->dim == 3 ? LINE : 1); k++) {
-        for (uint32_t j = 0; j < LINE; j++) {
-            for (uint32_t i = 0; i < LINE; i++) {
-                if (!ask(cell, i, j, k, &cell->value[(k * LINE + j) * LINE + i], error)) {
-                    return false;
-                }
-            }
-        }
-    }
     for (uint32_t k = 0; k < deep; k++) {
         for (uint32_t j = 0; j < SOLID_PARTS; j++) {
             for (uint32_t i = 0; i < SOLID_PARTS; i++) {
@@ -211,7 +198,6 @@ static bool divide(struct cell *cell, struct solver_error *error)
             }
         }
     }
-    return true;
 }
 
 /* A cell well inside, with particles at its corners, is shared by them, and so are its sides on faces of the box. */
@@ -248,25 +234,84 @@ static bool share_whole(const struct cell *cell)
     return true;
 }
 
-bool solid_share(const struct solid_grid *grid, struct solid_shares *shares, struct solver_error *error)
+/* Index of a cell, which is that of its place among cells. */
+static void cell_at(const struct solid_grid *grid, size_t c, uint32_t at[3])
 {
-    struct cell cell = {.grid = grid, .shares = shares};
-    double half = 0.5 * sqrt((double)grid->dim) * grid->solid->spacing;
-    uint32_t deep = grid->dim == 3 ? grid->cells[2] : 1;
-    for (cell.at[2] = 0; cell.at[2] < deep; cell.at[2]++) {
-        for (cell.at[1] = 0; cell.at[1] < grid->cells[1]; cell.at[1]++) {
-            for (cell.at[0] = 0; cell.at[0] < grid->cells[0]; cell.at[0]++) {
-                double middle;
-                uint32_t mid = SOLID_PARTS / 2;
-                if (!ask(&cell, mid, mid, grid->dim == 3 ? mid : 0, &middle, error)) {
-                    return false;
-                }
-                bool outside = middle > half * (1.0 + 1e-9);
-                if (!outside && !(middle < -half && share_whole(&cell)) && !divide(&cell, error)) {
+    at[0] = (uint32_t)(c % grid->cells[0]);
+    at[1] = (uint32_t)(c / grid->cells[0] % grid->cells[1]);
+    at[2] = (uint32_t)(c / grid->cells[0] / grid->cells[1]);
+}
+
+static bool ask(const struct solid_grid *grid, const uint32_t at[3], const uint32_t part[3], double *value,
+                struct solver_error *error)
+{
+    double X[3];
+    for (size_t axis = 0; axis < 3; axis++) {
+        X[axis] = solid_along(grid, axis, at[axis], part[axis]);
+    }
+    return grid->solid->distance(grid->solid->context, X, value, error);
+}
+
+/* Distances at the corners of a cell's parts, into a new place. */
+static bool ask_all(struct solid_grid *grid, const uint32_t at[3], uint32_t *place, struct solver_error *error)
+{
+    if (grid->value_count == grid->value_room) {
+        size_t room = 2 * grid->value_room + 64;
+        double(*grown)[SOLID_VALUES] = realloc(grid->value, room * sizeof *grown);
+        if (grown == NULL) {
+            return solver_fail(error, SOLVER_NO_MEMORY, "no memory for distances within %zu cells; choose a smaller n",
+                               room);
+        }
+        grid->value = grown;
+        grid->value_room = room;
+    }
+    double *value = grid->value[grid->value_count];
+    uint32_t deep = grid->dim == 3 ? SOLID_LINE : 1;
+    for (uint32_t k = 0; k < deep; k++) {
+        for (uint32_t j = 0; j < SOLID_LINE; j++) {
+            for (uint32_t i = 0; i < SOLID_LINE; i++) {
+                if (!ask(grid, at, (uint32_t[3]){i, j, k}, value++, error)) {
                     return false;
                 }
             }
         }
     }
+    *place = (uint32_t)grid->value_count++;
     return true;
+}
+
+bool solid_divide(struct solid_grid *grid, struct solver_error *error)
+{
+    double half = 0.5 * sqrt((double)grid->dim) * grid->solid->spacing;
+    uint32_t mid[3] = {SOLID_PARTS / 2, SOLID_PARTS / 2, SOLID_PARTS / 2};
+    for (size_t c = 0; c < grid->cell_count; c++) {
+        uint32_t at[3];
+        double middle;
+        cell_at(grid, c, at);
+        if (!ask(grid, at, mid, &middle, error)) {
+            return false;
+        }
+        grid->divided[c] = middle > half * (1.0 + 1e-9) ? SOLID_OUTSIDE : SOLID_WHOLE;
+        if (fabs(middle) <= half * (1.0 + 1e-9) && !ask_all(grid, at, &grid->divided[c], error)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void solid_share(const struct solid_grid *grid, struct solid_shares *shares)
+{
+    double within[SOLID_VALUES]; /* of a cell that lies within, but has no particles of its own at all corners */
+    struct cell cell = {.grid = grid, .shares = shares};
+    for (size_t i = 0; i < SOLID_VALUES; i++) {
+        within[i] = -grid->solid->spacing;
+    }
+    for (size_t c = 0; c < grid->cell_count; c++) {
+        cell_at(grid, c, cell.at);
+        if (grid->divided[c] == SOLID_OUTSIDE || (grid->divided[c] == SOLID_WHOLE && share_whole(&cell))) {
+            continue;
+        }
+        cell.value = grid->divided[c] == SOLID_WHOLE ? within : grid->value[grid->divided[c]];
+        share_parts(&cell);
+    }
 }
