@@ -366,30 +366,8 @@ static bool stand_for(const struct solid_grid *grid, size_t node, uint32_t *part
     return true;
 }
 
-/* Volume of a cell over that of a lattice's, from the edges of its tetrahedra or triangles about the diagonal. */
-static double cell_volume(const struct solver_cloud *cloud, const uint32_t *cell)
-{
-    static const int tetrahedron[6][2] = {{1, 2}, {2, 3}, {3, 7}, {7, 4}, {4, 5}, {5, 1}};
-    size_t dim = (size_t)cloud->dim;
-    double sum = 0.0;
-    for (int t = 0; t < (dim == 3 ? 6 : 2); t++) {
-        double e[3][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
-        const int to[3] = {dim == 3 ? tetrahedron[t][0] : t + 1, dim == 3 ? tetrahedron[t][1] : t + 2, 6};
-        for (size_t v = 0; v < dim; v++) {
-            for (size_t i = 0; i < dim; i++) {
-                e[v][i] = (cloud->X[cell[to[v]] * dim + i] - cloud->X[cell[0] * dim + i]) / cloud->spacing;
-            }
-        }
-        sum += dim == 3 ? (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-                           e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-                           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
-                              6.0
-                        : 0.5 * (e[0][0] * e[1][1] - e[0][1] * e[1][0]);
-    }
-    return sum;
-}
-
-/* Cells of the lattice with the particles that stand for their corners, but those that have collapsed. */
+/* Cells of the lattice that reach into the body, with the particles that stand for their corners; some have collapsed.
+ */
 static bool list_cells(const struct solid_grid *grid, struct solver_cloud *cloud, struct solver_error *error)
 {
     static const uint32_t corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
@@ -417,7 +395,7 @@ static bool list_cells(const struct solid_grid *grid, struct solver_cloud *cloud
             whole = whole && cell[k] != SOLID_NONE;
             inner = inner || grid->distance[node] <= 0.0;
         }
-        cloud->cell_count += whole && inner && cell_volume(cloud, cell) > 1e-3;
+        cloud->cell_count += whole && inner;
     }
     free(stands);
     return good;
