@@ -273,9 +273,14 @@ static bool finish(const struct solid_grid *grid, const struct solid_shares *sha
         centroid[i] = shares->moment[i] / shares->volume;
     }
     memcpy(cloud->V, shares->V, cloud->count * sizeof *cloud->V);
-    if (!list_face_points(cloud, shares, error) || !cloud_fit_volumes(cloud, shares->volume, centroid, error) ||
-        !cloud_fit_areas(cloud, solid->lower, solid->upper, error)) {
+    if (!list_face_points(cloud, shares, error)) {
         return false;
+    }
+    if (!cloud_fit_volumes(cloud, shares->volume, centroid, error) ||
+        !cloud_fit_areas(cloud, solid->lower, solid->upper, error)) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "n: the lattice is too coarse for the body: its particles lie in a line or plane, and their "
+                           "moments cannot be mended; choose a larger n");
     }
     quality->volume = shares->volume;
     quality->area = shares->area;

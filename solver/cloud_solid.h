@@ -39,8 +39,9 @@ struct solid_shares {
     double (*surface)[3]; /* [count] area vectors [m^(dim - 1)] */
     double (*face)[6];    /* [count] areas on faces X0 to Z1 [m^(dim - 1)] */
     double volume, moment[3], area;
-    double widest;   /* [m] largest distance of a piece of surface from its particle */
-    double farthest; /* [m] the same of a piece of volume */
+    double volume_rest, moment_rest[3], area_rest; /* what the sums above have lost to round-off */
+    double widest;                                 /* [m] largest distance of a piece of surface from its particle */
+    double farthest;                               /* [m] the same of a piece of volume */
     double widest_at[3], farthest_at[3];
 };
 

@@ -63,13 +63,13 @@ bool solid_project(const struct solid_grid *grid, uint32_t faces, double X[3], b
 {
     const struct solver_solid *solid = grid->solid;
     double distance = INFINITY;
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0, last = ROUNDS; round < last; round++) {
         double normal[3];
         if (!ask(grid, X, &distance, error)) {
             return false;
         }
-        if (fabs(distance) <= 1e-12 * solid->spacing) {
-            break;
+        if (fabs(distance) <= 1e-9 * solid->spacing) { /* one more step makes it round-off */
+            last = round + 1;
         }
         double square = slope(grid, faces, X, normal, error);
         if (isnan(square)) {

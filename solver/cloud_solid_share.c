@@ -19,6 +19,15 @@ struct cell {
     const double *value; /* [SOLID_VALUES] [m] */
 };
 
+/* Adds to a sum of many terms of one size, which would lose digits otherwise (Kahan 1965). */
+static void add(double *sum, double *rest, double term)
+{
+    double whole = term - *rest;
+    double next = *sum + whole;
+    *rest = (next - *sum) - whole;
+    *sum = next;
+}
+
 static bool any(const struct solid_grid *grid, size_t node, uint32_t face)
 {
     (void)grid;
@@ -64,9 +73,9 @@ static void take_volume(const struct cell *cell, double volume, const double cen
 {
     struct solid_shares *shares = cell->shares;
     uint32_t a = taker(cell, centroid, any, 0, &shares->farthest, shares->farthest_at);
-    shares->volume += volume;
+    add(&shares->volume, &shares->volume_rest, volume);
     for (int i = 0; i < 3; i++) {
-        shares->moment[i] += volume * centroid[i];
+        add(&shares->moment[i], &shares->moment_rest[i], volume * centroid[i]);
     }
     if (a != SOLID_NONE) {
         shares->V[a] += volume;
@@ -85,7 +94,7 @@ static void take_surface(const struct cell *cell, const struct simplices *cut, c
         }
         uint32_t a = taker(cell, centroid, on_surface, 0, &shares->widest, shares->widest_at);
         simplex_area(cut->size, cut->corner[s], outward, area);
-        shares->area += measure;
+        add(&shares->area, &shares->area_rest, measure);
         for (int i = 0; a != SOLID_NONE && i < 3; i++) {
             shares->surface[a][i] += area[i];
         }
@@ -102,7 +111,7 @@ static void take_face(const struct cell *cell, const struct simplices *inside, u
             continue;
         }
         uint32_t a = taker(cell, centroid, on_face, face, &shares->widest, shares->widest_at);
-        shares->area += measure;
+        add(&shares->area, &shares->area_rest, measure);
         if (a != SOLID_NONE) {
             shares->face[a][face] += measure;
         }
@@ -221,14 +230,15 @@ static bool share_whole(const struct cell *cell)
     for (size_t c = 0; c < corners; c++) {
         uint32_t a = grid->particle[node[c]];
         shares->V[a] += share;
-        shares->volume += share;
+        add(&shares->volume, &shares->volume_rest, share);
         for (int i = 0; i < 3; i++) {
-            shares->moment[i] += share * grid->X[node[c]][i]; /* their mean is the cell's middle */
+            add(&shares->moment[i], &shares->moment_rest[i],
+                share * grid->X[node[c]][i]); /* their mean is the cell's middle */
         }
         for (uint32_t face = 0; face < 6; face++) {
             bool on = (faces[c] >> face & 1U) != 0;
             shares->face[a][face] += on ? side : 0.0;
-            shares->area += on ? side : 0.0;
+            add(&shares->area, &shares->area_rest, on ? side : 0.0);
         }
     }
     return true;
