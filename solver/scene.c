@@ -189,7 +189,7 @@ static void place_of_body(const struct solver_scene *scene, double X[3])
 {
     const struct solver_shape *shape = scene->shape_count > 0 ? &scene->shape[0] : &scene->domain;
     memcpy(X, scene->shape_count > 0 ? shape->lower : scene->lower, 3 * sizeof *X);
-    if (shape->kind != SOLVER_SHAPE_BOX && shape->kind != SOLVER_SHAPE_SOLID) {
+    if (!solver_shape_in_box(shape->kind)) {
         X[0] = shape->centre[0] + shape->outer;
         X[1] = shape->centre[1];
         X[2] = shape->kind == SOLVER_SHAPE_CYLINDER ? X[2] : shape->centre[2];

@@ -22,9 +22,10 @@ void scene_read_symmetry(lua_State *L, struct solver_scene *scene)
         lua_pop(L, 1);
         return;
     }
-    if (scene->domain.kind != SOLVER_SHAPE_BOX && scene->domain.kind != SOLVER_SHAPE_SOLID)
-        scene_refuse(L,
-                     "domain.symmetry: a domain of this shape has none; expected domain.shape = \"box\" or \"solid\"");
+    if (!solver_shape_in_box(scene->domain.kind))
+        scene_refuse(
+            L,
+            "domain.symmetry: a domain of this shape has none; expected domain.shape = \"box\", \"solid\" or \"stl\"");
     for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1)) {
         char key[2 * SOLVER_NAME];
         const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "1";
