@@ -167,7 +167,7 @@ static void bad_round(void)
 #define SOLID(more) "dim = 2\n" PLAIN_DOMAIN, "dim = 3\ndomain = { centre = {0, 0, 0}, radius = 2, " more
     static const struct bad bad[] = {
         {PLAIN_DOMAIN, "domain = { shape = 'egg' }", 0,
-         "domain.shape: expected one of box, disc, ball, cylinder, got the text 'egg'"},
+         "domain.shape: expected one of box, disc, ball, cylinder, solid, stl, got the text 'egg'"},
         {PLAIN_DOMAIN, "domain = { shape = 'disc', radius = 2 }", 0,
          "domain.centre: missing; expected list of dim numbers [m] (of a round domain)"},
         {PLAIN_DOMAIN, "domain = { shape = 'disc', centre = {0, 0} }", 0,
