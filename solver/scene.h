@@ -197,13 +197,13 @@ struct solver_scene {
     char *text;               /* the whole file */
     char *overrides;          /* "KEY=value\n" lines as given, "" if none */
 
-    int dim;                    /* 1, 2, 3 */
-    double lower[3], upper[3];  /* box domain, or the box around a round one or around all bodies [m] */
-    struct solver_shape domain; /* its kind; without its box */
+    int dim;                       /* 1, 2, 3 */
+    double lower[3], upper[3];     /* box domain, or the box around a round one or around all bodies [m] */
+    struct solver_shape domain;    /* its kind; without its box */
     char domain_file[SOLVER_TEXT]; /* of triangles; relative to the scene's folder */
     double domain_scale;           /* [m] of the lengths in it */
-    bool symmetric[3];          /* the lower face across each axis is a plane of symmetry (domain.symmetry) */
-    size_t shape_count;         /* 0: one body, the domain */
+    bool symmetric[3];             /* the lower face across each axis is a plane of symmetry (domain.symmetry) */
+    size_t shape_count;            /* 0: one body, the domain */
     struct solver_shape shape[SOLVER_BODIES];
     enum solver_lattice lattice;
     enum solver_wall_motion wall_motion;

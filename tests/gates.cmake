@@ -230,6 +230,13 @@ assay_test(gate-satellite-left-free LABELS gate mustfail COMMAND ${fails} "angul
   $<TARGET_FILE:assay> verify satellite --set angular_momentum=free --out gates/satellite-free)
 assay_test(gate-satellite-fine LABELS gate slow COMMAND $<TARGET_FILE:assay> verify satellite --levels 4
   --out gates/satellite-fine)
+# The stent, early in its compression: checkerboard 0.26, with {p,F} 0.80; all of it, five minutes, clumping 0.14.
+set(stent $<TARGET_FILE:assay> verify stent)
+set(early --set c=0.003 --set t_end=0.0025)
+assay_test(gate-stent LABELS gate COMMAND ${stent} ${early} --out gates/stent)
+assay_test(gate-stent-sees-checkerboard LABELS gate mustfail COMMAND ${fails} "FAIL: a gate does not hold"
+  ${stent} ${early} --set evolved=pF --out gates/stent-pF)
+assay_test(gate-stent-whole LABELS gate slow COMMAND ${stent} --out gates/stent-whole)
 foreach(load tensile punch)
   set(block $<TARGET_FILE:assay> verify perforated-block-${load})
   assay_test(gate-perforated-block-${load} LABELS gate COMMAND ${block} --set evolved=pFJ

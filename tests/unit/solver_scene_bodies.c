@@ -114,7 +114,8 @@ static void bad_bodies(void)
 #define WITH(bodies) PLAIN_DOMAIN, "lattice, reference_length = 'centres', 1\nbodies = " bodies
     static const struct bad bad[] = {
         {PLAIN_DOMAIN, "", 0,
-         ": domain.lower: missing; expected list of dim numbers [m] (lower corner of the box), or "
+         ": domain.lower: missing; expected list of dim numbers [m] (lower corner of the box, or of that around a "
+         "solid), or "
          "bodies = { ... }"},
         {", upper = {2, 1}", "", 0, ": domain.upper: missing; expected list of dim numbers"},
         {0, RINGS, 0, ": bodies: the scene has a domain besides; expected one of the two"},
