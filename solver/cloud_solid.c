@@ -26,7 +26,7 @@ static bool lay_out(const struct solver_solid *solid, struct solid_grid *grid, s
     if (solid->dim < 2 || solid->dim > 3) {
         return solver_fail(error, SOLVER_BAD_INPUT, "domain: a solid lies in 2D or 3D; got dim = %d", solid->dim);
     }
-    for (size_t axis = 0; axis < grid->dim; axis++) {
+    for (size_t axis = 0; axis < 3 && axis < grid->dim; axis++) {
         double edge = solid->upper[axis] - solid->lower[axis];
         double spacings = edge / solid->spacing;
         if (!(solid->spacing > 0.0) || !(fabs(spacings - round(spacings)) <= 1e-6) || spacings < 0.5) {
@@ -96,7 +96,7 @@ static bool measure_distances(struct solid_grid *grid, struct solver_error *erro
         if (!solid->distance(solid->context, X, &grid->distance[node], error)) {
             return false;
         }
-        for (size_t axis = 0; axis < grid->dim; axis++) {
+        for (size_t axis = 0; axis < 3 && axis < grid->dim; axis++) {
             double change = at[axis] > 0 ? fabs(grid->distance[node] - grid->distance[node - stride]) : 0.0;
             if (!(change <= steep * solid->spacing)) {
                 return solver_fail(error, SOLVER_BAD_INPUT,

@@ -20,7 +20,7 @@ enum { ROUNDS = 40 };
 uint32_t solid_faces(const struct solid_grid *grid, const uint32_t at[3])
 {
     uint32_t faces = 0;
-    for (size_t axis = 0; axis < grid->dim; axis++) {
+    for (size_t axis = 0; axis < 3 && axis < grid->dim; axis++) {
         faces |= (at[axis] == 0 ? 1U << (2 * axis) : 0U) | (at[axis] == grid->cells[axis] ? 2U << (2 * axis) : 0U);
     }
     return faces;
@@ -64,7 +64,7 @@ bool solid_project(const struct solid_grid *grid, uint32_t faces, double X[3], b
     const struct solver_solid *solid = grid->solid;
     double distance = INFINITY;
     for (int round = 0, last = ROUNDS; round < last; round++) {
-        double normal[3];
+        double normal[3] = {0};
         if (!ask(grid, X, &distance, error)) {
             return false;
         }
@@ -78,7 +78,7 @@ bool solid_project(const struct solid_grid *grid, uint32_t faces, double X[3], b
         if (square < 1e-2) { /* the surface is parallel to the face, or the distance has its ridge here */
             break;
         }
-        for (size_t axis = 0; axis < grid->dim; axis++) {
+        for (size_t axis = 0; axis < 3 && axis < grid->dim; axis++) {
             double step = distance * normal[axis] / square;
             step = fmin(fmax(step, -0.5 * solid->spacing), 0.5 * solid->spacing);
             X[axis] = fmin(fmax(X[axis] - step, solid->lower[axis]), solid->upper[axis]);

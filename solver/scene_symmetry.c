@@ -10,7 +10,7 @@ static const char *const axes[] = {"X", "Y", "Z"};
 /* The axis of that name, below dim. */
 static int axis_of(const struct solver_scene *scene, const char *name)
 {
-    for (int axis = 0; axis < scene->dim; axis++)
+    for (int axis = 0; axis < 3 && axis < scene->dim; axis++)
         if (strcmp(name, axes[axis]) == 0)
             return axis;
     return -1;

@@ -45,8 +45,8 @@ static void add_chain(struct simplices *list, const double *const *point, size_t
 void simplex_cut(size_t size, const double (*corner)[3], const double *value, struct simplices *inside,
                  struct simplices *cut)
 {
-    const double *in[4];
-    const double *out[4];
+    const double *in[4] = {corner[0], corner[0], corner[0], corner[0]};
+    const double *out[4] = {corner[0], corner[0], corner[0], corner[0]};
     double in_value[4];
     double out_value[4];
     double at[2][4][3] = {{{0}}}; /* crossings of the edges from each of at most two inner, or outer, corners */

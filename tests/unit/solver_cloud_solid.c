@@ -7,6 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Spacings along the radius for what need not be looked at finely. */
+static int coarse(const struct solid_shape *shape)
+{
+    return shape->dim == 2 ? 8 : 4;
+}
+
 /* Volume and area of the polyhedron, which the cloud has to round-off, are of second order. */
 static void sizes(void)
 {
@@ -64,7 +70,7 @@ static double divergence_error(const struct solver_cloud *cloud)
 static void divergence_theorem(void)
 {
     for (int s = 0; s < SOLID_SHAPES; s++) {
-        for (int n = 4; n <= 8; n *= 2) {
+        for (int n = 4; n <= coarse(&solid_shapes[s]); n *= 2) {
             struct solver_cloud *cloud = solid_cloud(&solid_shapes[s], n);
             double worst = divergence_error(cloud);
             (void)printf("%.1e ", worst);
@@ -78,7 +84,7 @@ static void divergence_theorem(void)
 static void places(void)
 {
     for (int s = 0; s < SOLID_SHAPES; s++) {
-        struct solver_cloud *cloud = solid_cloud(&solid_shapes[s], 8);
+        struct solver_cloud *cloud = solid_cloud(&solid_shapes[s], coarse(&solid_shapes[s]));
         const struct solver_cloud_quality *quality = cloud->quality;
         size_t dim = (size_t)cloud->dim, on_surface = 0;
         double nearest = INFINITY, off = 0.0, least = INFINITY;
@@ -145,7 +151,7 @@ static void faces_of_a_box(void)
 static void rims(void)
 {
     for (int s = 0; s < SOLID_SHAPES; s++) {
-        struct solver_cloud *cloud = solid_cloud(&solid_shapes[s], 8);
+        struct solver_cloud *cloud = solid_cloud(&solid_shapes[s], coarse(&solid_shapes[s]));
         size_t rims = 0, rounded = 0;
         for (size_t a = 0; a < cloud->count; a++) {
             bool on = (cloud->tags[a] >> SOLVER_SURFACE & 1U) != 0;
@@ -194,7 +200,7 @@ static void closed(void)
 static void cells(void)
 {
     for (int s = 0; s < SOLID_SHAPES; s++) {
-        struct solver_cloud *cloud = solid_cloud(&solid_shapes[s], 8);
+        struct solver_cloud *cloud = solid_cloud(&solid_shapes[s], coarse(&solid_shapes[s]));
         size_t corners = (size_t)1 << cloud->dim, wrong = 0;
         double sum = 0.0;
         for (size_t c = 0; c < cloud->cell_count * corners; c++) {
