@@ -100,6 +100,7 @@ static void closure(void)
             for (size_t s = 0; s < cut.count; s++) {
                 double area[3];
                 simplex_area(cut.size, (const double(*)[3])cut.corner[s], out, area);
+                CU_ASSERT(area[0] * out[0] + area[1] * out[1] + area[2] * out[2] >= 0.0);
                 for (int i = 0; i < 3; i++) {
                     sum[i] += area[i];
                 }

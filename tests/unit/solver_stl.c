@@ -216,6 +216,29 @@ static void distance_from_a_ring(void)
     solver_stl_free(surface);
 }
 
+/* Between faces that meet at a sharp edge the sign is that of both: of one alone it would be wrong behind its plane. */
+static void sharp_edges(void)
+{
+    static const double corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0.25, 1, 0}, {0.5, 0.375, 0.125}};
+    uint64_t seed = 9;
+    size_t wrong = 0, inside = 0;
+    mesh.count = 0;
+    add_triangle(corner[0], corner[2], corner[1]);
+    for (int k = 0; k < 3; k++) {
+        add_triangle(corner[k], corner[(k + 1) % 3], corner[3]);
+    }
+    write_ascii();
+    struct solver_stl *surface = read_back(1.0);
+    for (int k = 0; k < 4000; k++) {
+        double X[3] = {0.5 + clouds_random(&seed), 0.5 + clouds_random(&seed), 0.2 * clouds_random(&seed)};
+        double distance = solver_stl_distance(surface, X);
+        wrong += (distance < 0.0) != (winding(X) > 0.5);
+        inside += distance < 0.0;
+    }
+    CU_ASSERT(wrong == 0 && inside > 20);
+    solver_stl_free(surface);
+}
+
 /* --- clouds and runs --- */
 
 static bool from_surface(const void *context, const double X[3], double *distance, struct solver_error *error)
@@ -399,6 +422,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"distance from a box", distance_from_a_box},
         {"distance from a ring", distance_from_a_ring},
+        {"sharp edges", sharp_edges},
         {"cloud of a ring", cloud_of_a_ring},
         {"scene beside its file", scene_beside_its_file},
         {"refusals", refusals},
