@@ -5,7 +5,6 @@
 #include "solver/cloud_solid.h"
 #include "solver/cloud_moments.h"
 #include "solver/memory.h"
-#include "solver/small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -74,15 +73,6 @@ static void free_grid(struct solid_grid *grid)
     free(grid->value);
 }
 
-static void node_place(const struct solid_grid *grid, size_t node, double X[3])
-{
-    uint32_t at[3];
-    solid_at(grid, node, at);
-    for (size_t axis = 0; axis < 3; axis++) {
-        X[axis] = solid_along(grid, axis, at[axis], 0);
-    }
-}
-
 /* Distances at the nodes; a function that changes faster than its argument is none. */
 static bool measure_distances(struct solid_grid *grid, struct solver_error *error)
 {
@@ -91,7 +81,7 @@ static bool measure_distances(struct solid_grid *grid, struct solver_error *erro
         double X[3];
         uint32_t at[3];
         size_t stride = 1;
-        node_place(grid, node, X);
+        solid_node_place(grid, node, X);
         solid_at(grid, node, at);
         if (!solid->distance(solid->context, X, &grid->distance[node], error)) {
             return false;
@@ -342,70 +332,6 @@ static bool measure_places(const struct solid_grid *grid, struct solver_cloud_qu
     return true;
 }
 
-/* --- cells, for pictures and files --- */
-
-static bool kept_any(const struct solid_grid *grid, size_t node, uint32_t face)
-{
-    (void)face;
-    return grid->kept[node];
-}
-
-/* The particle that stands for each node: its own, or the nearest to where it would lie on the surface. */
-static bool stand_for(const struct solid_grid *grid, size_t node, uint32_t *particle, struct solver_error *error)
-{
-    uint32_t at[3];
-    double X[3];
-    double square;
-    bool found;
-    *particle = grid->particle[node];
-    if (*particle != SOLID_NONE || fabs(grid->distance[node]) > 2.0 * grid->solid->spacing) {
-        return true;
-    }
-    solid_at(grid, node, at);
-    node_place(grid, node, X);
-    if (grid->distance[node] > 0.0 && !solid_project(grid, 0, X, &found, error)) {
-        return false;
-    }
-    size_t nearest = solid_nearest(grid, at, X, kept_any, 0, &square);
-    *particle = nearest == SIZE_MAX ? SOLID_NONE : grid->particle[nearest];
-    return true;
-}
-
-/* Cells of the lattice that reach into the body, with the particles that stand for their corners; some have collapsed.
- */
-static bool list_cells(const struct solid_grid *grid, struct solver_cloud *cloud, struct solver_error *error)
-{
-    static const uint32_t corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                          {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    size_t corners = (size_t)1 << grid->dim;
-    uint32_t *stands = NULL;
-    size_t cells = grid->cell_count;
-    free(cloud->cell);
-    cloud->cell = NULL;
-    bool good = solver_alloc((void **)&stands, grid->nodes, sizeof *stands, "corners of cells", error) &&
-                solver_alloc((void **)&cloud->cell, cells * corners, sizeof *cloud->cell, "lattice cells", error);
-    for (size_t node = 0; good && node < grid->nodes; node++) {
-        good = stand_for(grid, node, &stands[node], error);
-    }
-    for (size_t c = 0; good && c < cells; c++) {
-        uint32_t at[3] = {(uint32_t)(c % grid->cells[0]), (uint32_t)(c / grid->cells[0] % grid->cells[1]),
-                          (uint32_t)(c / grid->cells[0] / grid->cells[1])};
-        uint32_t *cell = cloud->cell + cloud->cell_count * corners;
-        bool whole = true;
-        bool inner = false;
-        for (size_t k = 0; k < corners; k++) {
-            size_t node =
-                solid_node(grid, (uint32_t[3]){at[0] + corner[k][0], at[1] + corner[k][1], at[2] + corner[k][2]});
-            cell[k] = stands[node];
-            whole = whole && cell[k] != SOLID_NONE;
-            inner = inner || grid->distance[node] <= 0.0;
-        }
-        cloud->cell_count += whole && inner;
-    }
-    free(stands);
-    return good;
-}
-
 /* --- all together --- */
 
 /* One cloud from the nodes that are not dropped; *again: some turned out too small. */
@@ -420,7 +346,7 @@ static bool make(struct solid_grid *grid, struct solver_cloud *cloud, bool *agai
     if (good && !*again) {
         raise_small(grid, &shares);
         good = check_shares(grid, &shares, error) && finish(grid, &shares, cloud, error) &&
-               measure_places(grid, cloud->quality, error) && list_cells(grid, cloud, error);
+               measure_places(grid, cloud->quality, error) && solid_list_cells(grid, cloud, error);
     }
     free_shares(&shares);
     return good;

@@ -76,12 +76,22 @@ static inline double solid_square(const double a[3], const double b[3])
     return square;
 }
 
+/* Where a node lies [m]. */
+static inline void solid_node_place(const struct solid_grid *grid, size_t node, double X[3])
+{
+    uint32_t at[3];
+    solid_at(grid, node, at);
+    for (size_t axis = 0; axis < 3; axis++) {
+        X[axis] = solid_along(grid, axis, at[axis], 0);
+    }
+}
+
 /* Bits of the faces of the box on which a node lies. */
 uint32_t solid_faces(const struct solid_grid *grid, const uint32_t at[3]);
 
 /* Chooses the particles: cloud_solid_place.c. */
 bool solid_place(struct solid_grid *grid, struct solver_error *error);
-/* Moves X [m] along the free axes onto the surface; false with `found` true never happens: false is an error. */
+/* Moves X [m] along the free axes onto the surface; *found: it got there. False where the distance failed. */
 bool solid_project(const struct solid_grid *grid, uint32_t faces, double X[3], bool *found, struct solver_error *error);
 /* Looks which cells the surface may pass, and measures distances within them: cloud_solid_share.c. */
 bool solid_divide(struct solid_grid *grid, struct solver_error *error);
@@ -91,5 +101,8 @@ void solid_share(const struct solid_grid *grid, struct solid_shares *shares);
 typedef bool solid_which(const struct solid_grid *grid, size_t node, uint32_t face);
 size_t solid_nearest(const struct solid_grid *grid, const uint32_t at[3], const double X[3], solid_which *which,
                      uint32_t face, double *square);
+
+/* Lists the cells that reach into the body: cloud_solid_cells.c. */
+bool solid_list_cells(const struct solid_grid *grid, struct solver_cloud *cloud, struct solver_error *error);
 
 #endif
