@@ -127,5 +127,6 @@ void solver_cloud_free(struct solver_cloud *cloud)
     free(cloud->face_point);
     free(cloud->image);
     free(cloud->cell);
+    free(cloud->quality);
     free(cloud);
 }

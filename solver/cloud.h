@@ -25,6 +25,20 @@ enum {
     SOLVER_FACE_BITS = 0x7f
 };
 
+/* How well a cloud fits a body of any shape (solid.h). The polyhedron is that of the distance's zero, linear between
+ * points a quarter of a spacing apart. */
+struct solver_cloud_quality {
+    double volume, area;    /* [m^dim, m^(dim - 1)] of the polyhedron; the cloud's volumes sum to it */
+    double closure;         /* |sum B| over the area */
+    double correction;      /* largest change of a volume by the correction of moments, over the volume */
+    double area_correction; /* the same of an area vector, over the spacing^(dim - 1) */
+    double least_volume;    /* of a particle, over the spacing^dim */
+    double nearest;         /* least distance of two particles, over the spacing */
+    double off_surface;     /* largest distance of a particle on the surface from it, over the spacing */
+    double widest;          /* largest distance of a piece of the surface from its particle, over the spacing */
+    size_t on_surface;      /* particles on the surface, faces of the box left out */
+};
+
 struct solver_cloud {
     int dim;
     size_t count;            /* particles, ordered along a space-filling curve; those of walls come after the others */
@@ -41,9 +55,10 @@ struct solver_cloud {
     uint32_t *image; /* [wall_count] particle of the body of which each particle of a wall is the mirror image;
                         NULL unless asked for */
     size_t cell_count;
-    uint32_t *cell; /* [cell_count][2^dim] particles of each lattice cell, in VTK's order for
-                       line, quad and hexahedron (triangles are quads that name a particle twice): for pictures and
-                       files only; none of walls */
+    uint32_t *cell;                       /* [cell_count][2^dim] particles of each lattice cell, in VTK's order for
+                                             line, quad and hexahedron (triangles are quads that name a particle twice): for pictures and
+                                             files only; none of walls */
+    struct solver_cloud_quality *quality; /* of a body of any shape; NULL: of another */
 };
 
 struct solver_box {

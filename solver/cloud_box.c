@@ -1,7 +1,7 @@
 /* Boxes: particles on a lattice, on the faces of its cells or in their centres, and the walls beyond its faces. */
 #include "solver/cloud_internal.h"
+#include "solver/cloud_moments.h"
 #include "solver/memory.h"
-#include "solver/small.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -236,45 +236,15 @@ static bool list_images(struct solver_cloud *cloud, const struct lattice *lattic
     return ok;
 }
 
-/* V_a <- V_a (1 + c0 + c . (X_a - centre)/h) such that sum V = |V| and sum V X = integral of X. Two rounds, so that
- * round-off in the first is corrected by the second. */
 static bool correct_moments(struct solver_cloud *cloud, const struct solver_box *box, struct solver_error *error)
 {
-    size_t dim = (size_t)cloud->dim;
-    size_t count = cloud->count - cloud->wall_count;
     double centre[3] = {0};
     double volume = 1.0;
-    for (size_t axis = 0; axis < dim; axis++) {
+    for (int axis = 0; axis < cloud->dim; axis++) {
         centre[axis] = 0.5 * (box->lower[axis] + box->upper[axis]);
         volume *= box->upper[axis] - box->lower[axis];
     }
-    for (int round = 0; round < 2; round++) {
-        double A[4][4] = {{0}};
-        double r[4] = {volume, 0.0, 0.0, 0.0};
-        for (size_t a = 0; a < count; a++) {
-            double basis[4] = {1.0, 0.0, 0.0, 0.0};
-            for (size_t axis = 0; axis < dim; axis++) {
-                basis[axis + 1] = (cloud->X[a * dim + axis] - centre[axis]) / box->spacing;
-            }
-            for (size_t i = 0; i <= dim; i++) {
-                r[i] -= cloud->V[a] * basis[i];
-                for (size_t j = 0; j <= dim; j++) {
-                    A[i][j] += cloud->V[a] * basis[i] * basis[j];
-                }
-            }
-        }
-        if (!solver_small_solve(dim + 1, A, r)) {
-            return solver_fail(error, SOLVER_BAD_INPUT, "cloud: volumes cannot be corrected: particles are degenerate");
-        }
-        for (size_t a = 0; a < count; a++) {
-            double factor = 1.0 + r[0];
-            for (size_t axis = 0; axis < dim; axis++) {
-                factor += r[axis + 1] * (cloud->X[a * dim + axis] - centre[axis]) / box->spacing;
-            }
-            cloud->V[a] *= factor;
-        }
-    }
-    return true;
+    return cloud_fit_volumes(cloud, volume, centre, error);
 }
 
 /* Fills and orders a cloud that has its arrays; keeps the sites. */

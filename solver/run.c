@@ -125,34 +125,6 @@ static void find_probes(struct solver_run *run)
     }
 }
 
-static bool build_cloud(struct solver_run *run, struct solver_error *error)
-{
-    const struct solver_scene *scene = run->scene;
-    double spacing = scene->reference_length / scene->n;
-    struct solver_box box = {.dim = scene->dim,
-                             .spacing = spacing,
-                             .perturb = scene->perturb,
-                             .seed = scene->seed,
-                             .centred = scene->lattice == SOLVER_CENTRES,
-                             .mirrored = scene->wall_motion == SOLVER_WALL_MIRRORED};
-    memcpy(box.lower, scene->lower, sizeof box.lower);
-    memcpy(box.upper, scene->upper, sizeof box.upper);
-    for (int face = 0; face < SOLVER_SURFACE; face++) {
-        box.wall[face] = (uint32_t)solver_scene_wall(scene, face);
-    }
-    bool made = scene->shape_count > 0
-                    ? solver_cloud_bodies(scene->dim, scene->shape, scene->shape_count, spacing, &run->cloud, error)
-                : scene->domain.kind != SOLVER_SHAPE_BOX
-                    ? solver_cloud_round(&scene->domain, spacing, &run->cloud, error)
-                    : solver_cloud_box(&box, &run->cloud, error);
-    if (made) {
-        run->shown = *run->cloud;
-        run->shown.count -= run->cloud->wall_count;
-        run->shown.wall_count = 0;
-    }
-    return made;
-}
-
 static bool build(struct solver_run *run, struct solver_error *error)
 {
     const struct solver_scene *scene = run->scene;
@@ -167,7 +139,7 @@ static bool build(struct solver_run *run, struct solver_error *error)
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: material.yield_stress: the scheme %s knows no plastic flow",
                            scene->path, run->scheme->name);
     }
-    if (!build_cloud(run, error) || !set_constants(run, error)) {
+    if (!solver_run_cloud(run, error) || !set_constants(run, error)) {
         return false;
     }
     run->threads = choose_threads(scene->threads, scene->dim, run->cloud->count);

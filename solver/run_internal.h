@@ -1,4 +1,4 @@
-/* What a run holds; for run.c, run_step.c and run_output.c only. */
+/* What a run holds; for run.c, run_cloud.c, run_step.c and run_output.c only. */
 #ifndef SOLVER_RUN_INTERNAL_H
 #define SOLVER_RUN_INTERNAL_H
 
@@ -34,6 +34,8 @@ struct solver_run {
     uint32_t probe[SOLVER_PROBES];
 };
 
+/* The cloud of the scene, and what of it the run shows: run_cloud.c. */
+bool solver_run_cloud(struct solver_run *run, struct solver_error *error);
 /* Monotonic clock [s]. */
 double solver_run_clock(void);
 /* What follows from a changed state. */

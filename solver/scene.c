@@ -160,6 +160,7 @@ static int read_scene(lua_State *L)
                      "say 0.4999");
     check_flow(L, scene);
     check_rigid_wall(L, scene);
+    scene_read_symmetry(L, scene);
     scene_read_bodies(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)
         if (solver_scene_has(scene, (enum solver_formula)f))
@@ -169,6 +170,7 @@ static int read_scene(lua_State *L)
     if (scene->has_view)
         check_view(L, &scene->view);
     scene_read_faces(L, scene);
+    scene_hold_symmetry(L, scene);
     scene_check_faces(L, scene);
     scene_read_resolution(L, scene);
     scene_read_probes(L, scene);
@@ -188,7 +190,7 @@ static void place_of_body(const struct solver_scene *scene, double X[3])
 {
     const struct solver_shape *shape = scene->shape_count > 0 ? &scene->shape[0] : &scene->domain;
     memcpy(X, scene->shape_count > 0 ? shape->lower : scene->lower, 3 * sizeof *X);
-    if (shape->kind != SOLVER_SHAPE_BOX) {
+    if (!solver_shape_in_box(shape->kind)) {
         X[0] = shape->centre[0] + shape->outer;
         X[1] = shape->centre[1];
         X[2] = shape->kind == SOLVER_SHAPE_CYLINDER ? X[2] : shape->centre[2];
@@ -201,7 +203,7 @@ static bool try_formulas(const struct solver_scene *scene, struct solver_error *
     for (int f = 0; f < SOLVER_FORMULAS; f++) {
         double X[3], value[9];
         size_t dim = (size_t)scene->dim;
-        size_t count = f == SOLVER_INITIAL_F ? dim * dim : f == SOLVER_MATERIAL_AT ? 3 : dim;
+        size_t count = f == SOLVER_INITIAL_F ? dim * dim : f == SOLVER_MATERIAL_AT ? 3 : f == SOLVER_DISTANCE ? 1 : dim;
         if (!solver_scene_has(scene, (enum solver_formula)f))
             continue;
         place_of_body(scene, X);

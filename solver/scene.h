@@ -40,6 +40,7 @@ enum solver_formula {
     SOLVER_INITIAL_F,            /* initial.F [-]; without it F is the stencil's gradient of x */
     SOLVER_BODY_FORCE,           /* body_force [N/m^3], per unit reference volume */
     SOLVER_MATERIAL_AT, /* material.at: E [Pa], nu, rho [kg/m^3] at X; without it they are the same everywhere */
+    SOLVER_DISTANCE,    /* domain.distance: one number [m]; negative inside */
     SOLVER_FACE_X0,     /* faces.X0.value: traction [Pa] or velocity [m/s]; X1, Y0, Y1, Z0, Z1 follow */
     SOLVER_FACE_Z1 = SOLVER_FACE_X0 + 5,
     SOLVER_FACE_SURFACE, /* the same of the curved face of a round domain */
@@ -203,10 +204,13 @@ struct solver_scene {
     char *text;               /* the whole file */
     char *overrides;          /* "KEY=value\n" lines as given, "" if none */
 
-    int dim;                    /* 1, 2, 3 */
-    double lower[3], upper[3];  /* box domain, or the box around a round one or around all bodies [m] */
-    struct solver_shape domain; /* its kind; without its box */
-    size_t shape_count;         /* 0: one body, the domain */
+    int dim;                       /* 1, 2, 3 */
+    double lower[3], upper[3];     /* box domain, or the box around a round one or around all bodies [m] */
+    struct solver_shape domain;    /* its kind; without its box */
+    char domain_file[SOLVER_TEXT]; /* of triangles; relative to the scene's folder */
+    double domain_scale;           /* [m] of the lengths in it */
+    bool symmetric[3];             /* the lower face across each axis is a plane of symmetry (domain.symmetry) */
+    size_t shape_count;            /* 0: one body, the domain */
     struct solver_shape shape[SOLVER_BODIES];
     enum solver_lattice lattice;
     enum solver_wall_motion wall_motion;

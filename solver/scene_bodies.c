@@ -132,19 +132,18 @@ static void read_bodies(lua_State *L, struct solver_scene *scene)
 
 /* --- a domain --- */
 
-static const char *const shape_names[] = {"box", "disc", "ball", "cylinder"};
+static const char *const shape_names[] = {"box", "disc", "ball", "cylinder", "solid", "stl"};
 
 /* Refuses a domain that lacks one of its shape's keys, or has one of another's. */
 static void check_domain_keys(lua_State *L, enum solver_shape_kind shape)
 {
     static const struct {
         const char *key;
-        bool of[4]; /* the shapes, in their order */
-    } wanted[] = {{"domain.lower", {1, 0, 0, 0}},
-                  {"domain.upper", {1, 0, 0, 0}},
-                  {"domain.centre", {0, 1, 1, 1}},
-                  {"domain.radius", {0, 1, 1, 1}},
-                  {"domain.length", {0, 0, 0, 1}}};
+        bool of[6]; /* the shapes, in their order */
+    } wanted[] = {{"domain.lower", {1, 0, 0, 0, 1, 1}},  {"domain.upper", {1, 0, 0, 0, 1, 1}},
+                  {"domain.centre", {0, 1, 1, 1, 0, 0}}, {"domain.radius", {0, 1, 1, 1, 0, 0}},
+                  {"domain.length", {0, 0, 0, 1, 0, 0}}, {"domain.distance", {0, 0, 0, 0, 1, 0}},
+                  {"domain.file", {0, 0, 0, 0, 0, 1}}};
     for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
         const struct solver_scene_key *key = &solver_scene_keys()[scene_key_find(wanted[i].key)];
         scene_lua_push(L, key->key);
@@ -177,12 +176,29 @@ static void check_round(lua_State *L, struct solver_scene *scene)
     }
 }
 
+/* The plain keys are there. */
+static void check_solid(lua_State *L, const struct solver_scene *scene)
+{
+    check_corners(L, scene->dim, "domain", scene->lower, scene->upper);
+    if (scene->dim < 2)
+        scene_refuse(L, "domain.shape: a solid lies in 2D or 3D; expected dim = 2 or 3, got %d", scene->dim);
+    if (scene->domain.kind == SOLVER_SHAPE_STL && scene->dim != 3)
+        scene_refuse(L, "domain.shape: a file of triangles lies in 3D; expected dim = 3, got %d", scene->dim);
+    if (scene->lattice != SOLVER_NODES)
+        scene_refuse(L, "lattice: a solid has particles on its surface; expected \"nodes\", got \"centres\"");
+    if (scene->perturb > 0)
+        scene_refuse(L, "perturb: expected 0 with a solid, got %g; a box can be perturbed", scene->perturb);
+}
+
 static void check_domain(lua_State *L, struct solver_scene *scene)
 {
-    bool box = scene->domain.kind == SOLVER_SHAPE_BOX;
-    check_domain_keys(L, scene->domain.kind);
-    if (box)
+    enum solver_shape_kind kind = scene->domain.kind;
+    bool box = solver_shape_in_box(kind);
+    check_domain_keys(L, kind);
+    if (kind == SOLVER_SHAPE_BOX)
         check_corners(L, scene->dim, "domain", scene->lower, scene->upper);
+    else if (box)
+        check_solid(L, scene);
     else
         check_round(L, scene);
     if (scene->reference_length == 0) /* not given */
@@ -210,6 +226,7 @@ static bool has_face(const struct solver_scene *scene, int face)
 {
     enum solver_shape_kind shape = scene->domain.kind;
     return shape == SOLVER_SHAPE_BOX        ? face < SOLVER_SURFACE
+           : solver_shape_in_box(shape)     ? true
            : shape == SOLVER_SHAPE_CYLINDER ? face >= 4
                                             : face == SOLVER_SURFACE;
 }

@@ -133,6 +133,9 @@ bool scene_push_table(lua_State *L, const char *path, const char *expected);
 /* Length of the list on top of the stack; entries under names are refused unless `named_too`. */
 size_t scene_list_length(lua_State *L, const char *key, size_t limit, bool named_too);
 void scene_read_plain(lua_State *L, struct solver_scene *scene);
+/* Planes of symmetry: they cut the domain, whose plain keys are there; then they hold its lower faces. */
+void scene_read_symmetry(lua_State *L, struct solver_scene *scene);
+void scene_hold_symmetry(lua_State *L, struct solver_scene *scene);
 /* Domain or bodies; the plain keys are there. */
 void scene_read_bodies(lua_State *L, struct solver_scene *scene);
 extern const char scene_face_kinds[]; /* words */

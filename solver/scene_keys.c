@@ -25,13 +25,21 @@ X("title", TEXT, AT(title), 0, 0, 0, "", NEEDED, "text", "what the scene shows")
 X("source", TEXT, AT(source), 0, 0, 0, "", OPTIONAL, "text", "paper and section the scene is taken from")              \
 X("parameters", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "table of NAME = number", "numbers of the scene's own")          \
 X("dim", INTEGER, AT(dim), 1, 3, 0, "", NEEDED, "1, 2 or 3", "space dimensions")                                       \
-X("domain.shape", INDEX, AT(domain.kind), 0, 0, 0, "box disc ball cylinder", "box", "one of box, disc, ball, cylinder",    \
-  "disc in 2D, ball and cylinder along Z in 3D")                                                                       \
-X("domain.lower", NUMBERS, AT(lower), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "lower corner of the box")       \
-X("domain.upper", NUMBERS, AT(upper), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "upper corner of the box")       \
+X("domain.shape", INDEX, AT(domain.kind), 0, 0, 0, "box disc ball cylinder solid stl", "box",                                              \
+  "one of box, disc, ball, cylinder, solid, stl",                                                                          \
+  "disc in 2D, ball and cylinder along Z in 3D; solid of any shape by its distance, or by a file of triangles")                                                                       \
+X("domain.lower", NUMBERS, AT(lower), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "lower corner of the box, or of that around a solid")       \
+X("domain.upper", NUMBERS, AT(upper), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "upper corner of the box, or of that around a solid")       \
 X("domain.centre", NUMBERS, AT(domain.centre), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "of a round domain")     \
 X("domain.radius", NUMBER, AT(domain.outer), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a round domain")  \
 X("domain.length", NUMBER, AT(domain.length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a cylinder")     \
+X("domain.distance", FORMULA, SOLVER_DISTANCE, 0, 0, 0, "", OPTIONAL, "function(X, Y, Z) returning one number [m]",       \
+  "distance from the surface of a solid, negative inside; where it is so on a side of the box, that is a face")          \
+X("domain.file", TEXT, AT(domain_file), 0, 0, SOLVER_TEXT, "", OPTIONAL, "path, relative to the scene's folder",           \
+  "closed surface of triangles, a binary or ASCII STL file")                                                            \
+X("domain.scale", NUMBER, AT(domain_scale), ABOVE_ZERO, DBL_MAX, 0, "", "1", "number > 0 [m]", "of the lengths in that file") \
+X("domain.symmetry", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ X = number, ... } [m], of X, Y and Z",                      \
+  "planes of symmetry: the part above is modelled, and X0, Y0 or Z0 is symmetric; of a box, solid or stl")                  \
 X("bodies", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                       \
   "list of up to 16 { shape = \"box\", lower = { ... }, upper = { ... } } or { shape = \"ring\", centre = {x, y}, inner = r, outer = R }", \
   "several bodies, in place of domain")                                                                                \

@@ -283,8 +283,8 @@ static int call_formula(lua_State *L)
 
 static void name_formula(enum solver_formula formula, char *out, size_t size)
 {
-    static const char *const name[] = {"initial.displacement", "initial.velocity", "initial.F", "body_force",
-                                       "material.at"};
+    static const char *const name[] = {"initial.displacement", "initial.velocity", "initial.F",
+                                       "body_force",           "material.at",      "domain.distance"};
     static const char *const face[] = {"X0", "X1", "Y0", "Y1", "Z0", "Z1", "surface"};
     if (formula < SOLVER_FACE_X0)
         snprintf(out, size, "%s", name[formula]);

@@ -79,7 +79,7 @@ static double round_particles(lua_State *L, const struct solver_scene *scene, co
 static double count_particles(lua_State *L, const struct solver_scene *scene, const char *key, double n)
 {
     double particles = 0;
-    if (scene->shape_count == 0 && scene->domain.kind != SOLVER_SHAPE_BOX)
+    if (scene->shape_count == 0 && !solver_shape_in_box(scene->domain.kind))
         return round_particles(L, scene, key, n);
     if (scene->shape_count == 0)
         return box_particles(L, scene, key, n, "", scene->lower, scene->upper);

@@ -2,12 +2,16 @@
 #ifndef SOLVER_SHAPE_H
 #define SOLVER_SHAPE_H
 
-/* Those up to the cylinder are possible domains. A disc and a ring lie in 2D, a ball and a cylinder in 3D. */
+#include <stdbool.h>
+
+/* All but the ring are possible domains. A disc and a ring lie in 2D, a ball and a cylinder in 3D. */
 enum solver_shape_kind {
     SOLVER_SHAPE_BOX,
     SOLVER_SHAPE_DISC,
     SOLVER_SHAPE_BALL,
     SOLVER_SHAPE_CYLINDER, /* along Z */
+    SOLVER_SHAPE_SOLID,    /* where a distance is negative, within a box (solid.h) */
+    SOLVER_SHAPE_STL,      /* within a closed surface of triangles, and within a box (stl.h) */
     SOLVER_SHAPE_RING
 };
 
@@ -22,5 +26,11 @@ struct solver_shape {
     double inner, outer;       /* [m] radii; only a ring has an inner one */
     double length;             /* [m] of a cylinder */
 };
+
+/* Whether a domain is a box, or cut out of one: it has the faces X0 to Z1. */
+static inline bool solver_shape_in_box(enum solver_shape_kind kind)
+{
+    return kind == SOLVER_SHAPE_BOX || kind == SOLVER_SHAPE_SOLID || kind == SOLVER_SHAPE_STL;
+}
 
 #endif

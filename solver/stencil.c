@@ -127,10 +127,11 @@ bool solver_stencil_create(const struct solver_stencil_builder *builder, const s
             builder->name);
     }
     if (builder->lattice_only && cloud->site == NULL) {
-        return solver_fail(error, SOLVER_BAD_INPUT,
-                           "stencil: %s works along the lines of a box's lattice, and a round body has none; expected "
-                           "closed, or another stencil for any cloud",
-                           builder->name);
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "stencil: %s works along the lines of a box's lattice, and a body of another shape has none; expected "
+            "closed, or another stencil for any cloud",
+            builder->name);
     }
     if (!solver_alloc((void **)&stencil, 1, sizeof *stencil, "stencil", error)) {
         return false;

@@ -36,6 +36,13 @@ scene_with(cantilever-plate "probes = 0.008, [\"rate probes\"] = 1.4, [\"figure 
   "probes = 0.02, [\"figure period\"] = 1.5e-3" plate_scene)
 scene_with(breathing-sphere "[\"figure period\"] = 5e-3, [\"rate figure period\"] = 1.8, p = 0.065, [\"rate p\"] = 1.9, P = 0.051, [\"rate P\"] = 1.4,
       u = 0.049, [\"rate u\"] = 1.4, snapshots_p = 5.3e-3, [\"rate snapshots_p\"] = 1.2, snapshots_P = 0.0104,
-      [\"rate snapshots_P\"] = 2, snapshots_u = 1.5e-3, [\"rate snapshots_u\"] = 1.7"
-  "[\"figure period\"] = 0.0183, [\"rate figure period\"] = 1.7, p = 0.287, [\"rate p\"] = 1.9, snapshots_P = 0.046, [\"rate snapshots_P\"] = 1.4" sphere_scene)
+      [\"rate snapshots_P\"] = 2, snapshots_u = 1.5e-3, [\"rate snapshots_u\"] = 1.7 },
+    { when = { scheme = \"upwind\", cut = 1 },
+      [\"figure period\"] = 5.1e-3, [\"rate figure period\"] = 1.8, p = 0.075, [\"rate p\"] = 1.9, P = 0.057, [\"rate P\"] = 1.4,
+      u = 0.055, [\"rate u\"] = 1.4, snapshots_p = 5.8e-3, [\"rate snapshots_p\"] = 1.7, snapshots_P = 9.4e-3,
+      [\"rate snapshots_P\"] = 2, snapshots_u = 2.3e-3, [\"rate snapshots_u\"] = 1.8"
+  "[\"figure period\"] = 0.0183, [\"rate figure period\"] = 1.7, p = 0.287, [\"rate p\"] = 1.9, snapshots_P = 0.046, [\"rate snapshots_P\"] = 1.4 },
+    { when = { scheme = \"upwind\", cut = 1 },
+      [\"figure period\"] = 0.011, [\"rate figure period\"] = 1.7, p = 0.175, [\"rate p\"] = 1.9, snapshots_p = 0.0122,
+      [\"rate snapshots_p\"] = 1.7, snapshots_P = 0.0227, [\"rate snapshots_P\"] = 1.6" sphere_scene)
 scene_with(rotating-plate "beside = 0.04" "p_l1 = 1" plate_without_oracle)

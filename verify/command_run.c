@@ -26,6 +26,22 @@ static void print_facts(const struct solver_scene *scene, const struct solver_fa
                  facts->state_bytes, verify_residual(residual, facts));
 }
 
+/* How well the cloud of a body of any shape fits it. */
+static void print_quality(const struct solver_cloud *cloud)
+{
+    const struct solver_cloud_quality *quality = cloud->quality;
+    if (quality == NULL) {
+        return;
+    }
+    (void)printf(
+        "  body of %.6g m^%d within %.6g m^%d; %zu particles on its surface, off it by %.1e spacings at most\n",
+        quality->volume, cloud->dim, quality->area, cloud->dim - 1, quality->on_surface, quality->off_surface);
+    (void)printf("  areas sum to %.1e of it; volumes from %.2f of a cell, changed by %.1e, areas by %.1e of a side\n",
+                 quality->closure, quality->least_volume, quality->correction, quality->area_correction);
+    (void)printf("  particles from %.2f spacings apart, the surface up to %.2f from its own\n", quality->nearest,
+                 quality->widest);
+}
+
 /* Record and picture of a finished run. The picture is drawn from the record as read back, which proves that it can
  * be. */
 static bool keep(const struct solver_scene *scene, struct solver_run *run, const char *folder, const char *line,
@@ -56,6 +72,7 @@ static bool judge(const struct solver_scene *scene, struct solver_run *run, cons
         return false;
     }
     verify_terminal_indicators(stdout, value);
+    print_quality(output.cloud);
     return true;
 }
 

@@ -8,7 +8,7 @@ static const unsigned hexahedron[6][4] = {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 
                                           {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
 
 struct face {
-    uint32_t key[4];    /* vertices, sorted: the same for both cells that share the face */
+    uint32_t key[4];    /* vertices, sorted, each once: the same for all cells that share the face */
     uint32_t vertex[4]; /* vertices, in order around the face */
 };
 
@@ -29,6 +29,24 @@ static int by_key(const void *a, const void *b)
     return 0;
 }
 
+/* The key of a face; false where it has collapsed to a line. */
+static bool set_key(struct face *face)
+{
+    uint32_t sorted[4];
+    size_t distinct = 0;
+    memcpy(sorted, face->vertex, sizeof sorted);
+    qsort(sorted, 4, sizeof sorted[0], by_vertex);
+    for (size_t i = 0; i < 4; i++) {
+        face->key[i] = UINT32_MAX;
+        if (i == 0 || sorted[i] != sorted[i - 1]) {
+            face->key[distinct++] = sorted[i];
+        }
+    }
+    return distinct > 2;
+}
+
+/* A face that an odd number of cells have is on the surface: one, or beside cells that have collapsed, both of whose
+ * sides it is. */
 static bool surface_of_hexahedra(const uint32_t *cell, size_t cell_count, uint32_t (**quad)[4], size_t *count)
 {
     size_t faces = 6 * cell_count;
@@ -40,20 +58,21 @@ static bool surface_of_hexahedra(const uint32_t *cell, size_t cell_count, uint32
         *quad = NULL;
         return false;
     }
+    size_t kept = 0;
     for (size_t i = 0; i < faces; i++) {
         for (int j = 0; j < 4; j++) {
-            face[i].vertex[j] = cell[i / 6 * 8 + hexahedron[i % 6][j]];
+            face[kept].vertex[j] = cell[i / 6 * 8 + hexahedron[i % 6][j]];
         }
-        memcpy(face[i].key, face[i].vertex, sizeof face[i].key);
-        qsort(face[i].key, 4, sizeof face[i].key[0], by_vertex);
+        kept += set_key(&face[kept]);
     }
+    faces = kept;
     qsort(face, faces, sizeof *face, by_key);
     *count = 0;
     for (size_t i = 0, end; i < faces; i = end) {
         for (end = i + 1; end < faces && by_key(&face[i], &face[end]) == 0;) {
             end++;
         }
-        if (end - i == 1) {
+        if ((end - i) % 2 == 1) {
             memcpy((*quad)[(*count)++], face[i].vertex, sizeof **quad);
         }
     }

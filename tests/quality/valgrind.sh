@@ -22,6 +22,8 @@ declare -A skipped=(
 )
 # Of these, one test.
 declare -A only=(
+  [test_solver_cloud_solid]="refusals"                       # others: the same in 3D, and factorised stencils
+  [test_solver_stl]="changed bytes"                          # others: thousands of distances, and runs
   [test_oracles_conformance]="passes its own check"          # the others call the same code, a hundred times
   [test_oracles_thin_plate]="bends under its own inertia"    # another solves the eigenproblem of the body, as above
   [test_solver_affine]="what claims affine motions keeps them, 1D"       # others: more dimensions, hundreds of runs

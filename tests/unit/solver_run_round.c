@@ -7,19 +7,36 @@
 static const struct body {
     const char *name, *domain;
     int dim;
+    bool exact; /* area vectors are along N */
 } bodies[] = {
     {"disc",
      "domain = { shape = 'disc', centre = {0.2, -0.1}, radius = 0.5 }\n"
      "local function N(X, Y) return 2 * (X - 0.2), 2 * (Y + 0.1), 0 end\n",
-     2},
+     2, true},
     {"ball",
      "domain = { shape = 'ball', centre = {0.2, -0.1, 0.3}, radius = 0.5 }\n"
      "local function N(X, Y, Z) return 2 * (X - 0.2), 2 * (Y + 0.1), 2 * (Z - 0.3) end\n",
-     3},
+     3, true},
     {"cylinder",
      "domain = { shape = 'cylinder', centre = {0.2, -0.1, 0.3}, radius = 0.5, length = 0.75 }\n"
      "local function N(X, Y) return 2 * (X - 0.2), 2 * (Y + 0.1), 0 end\n",
-     3},
+     3, true},
+    {"disc, cut",
+     "domain = { shape = 'solid', lower = {-0.425, -0.725}, upper = {0.825, 0.525},\n"
+     "    distance = function(X, Y) return math.sqrt((X - 0.2) ^ 2 + (Y + 0.1) ^ 2) - 0.5 end }\n"
+     "reference_length, support = 0.5, 2.2\n",
+     2, false},
+    {"ball, cut",
+     "domain = { shape = 'solid', lower = {-0.425, -0.725, -0.325}, upper = {0.825, 0.525, 0.925},\n"
+     "    distance = function(X, Y, Z)\n"
+     "        return math.sqrt((X - 0.2) ^ 2 + (Y + 0.1) ^ 2 + (Z - 0.3) ^ 2) - 0.5 end }\n"
+     "reference_length, support = 0.5, 2.2\n",
+     3, false},
+    {"cylinder, cut",
+     "domain = { shape = 'solid', lower = {-0.425, -0.725, -0.075}, upper = {0.825, 0.525, 0.675},\n"
+     "    distance = function(X, Y) return math.sqrt((X - 0.2) ^ 2 + (Y + 0.1) ^ 2) - 0.5 end }\n"
+     "reference_length, support = 0.5, 2.2\n",
+     3, false},
 };
 enum { BODIES = sizeof bodies / sizeof *bodies };
 
@@ -104,7 +121,7 @@ static double speed(const struct body *body, const char *faces)
 /* A constant stress is at rest under its own tractions, and not without them. */
 static void equilibrium(void)
 {
-    for (int b = 0; b < BODIES; b++) {
+    for (int b = 0; b < BODIES && bodies[b].exact; b++) {
         bool cylinder = strcmp(bodies[b].name, "cylinder") == 0;
         expect_below(bodies[b].name, speed(&bodies[b], cylinder ? held_everywhere : held_around), 1e-10);
         CU_ASSERT(speed(&bodies[b], "") > 0.1);
@@ -152,7 +169,7 @@ static void held_and_moved(void)
             CU_ASSERT(!on || (still.v[a * dim] == 0.0 && still.u[a * dim + 1] == 0.0));
             CU_ASSERT(!on || (fabs(v[0] - X[0] - driven.time) < 1e-14 && fabs(v[1] - X[1] * X[1]) < 1e-14));
         }
-        CU_ASSERT(on_surface > 20 && inside > still.cloud->count - on_surface - 40 && inside > 0);
+        CU_ASSERT(on_surface > 20 && inside + 40 > still.cloud->count - on_surface && inside > 0);
         finish(&clamped);
         finish(&moved);
     }

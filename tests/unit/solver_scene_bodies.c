@@ -114,7 +114,8 @@ static void bad_bodies(void)
 #define WITH(bodies) PLAIN_DOMAIN, "lattice, reference_length = 'centres', 1\nbodies = " bodies
     static const struct bad bad[] = {
         {PLAIN_DOMAIN, "", 0,
-         ": domain.lower: missing; expected list of dim numbers [m] (lower corner of the box), or "
+         ": domain.lower: missing; expected list of dim numbers [m] (lower corner of the box, or of that around a "
+         "solid), or "
          "bodies = { ... }"},
         {", upper = {2, 1}", "", 0, ": domain.upper: missing; expected list of dim numbers"},
         {0, RINGS, 0, ": bodies: the scene has a domain besides; expected one of the two"},
@@ -167,7 +168,7 @@ static void bad_round(void)
 #define SOLID(more) "dim = 2\n" PLAIN_DOMAIN, "dim = 3\ndomain = { centre = {0, 0, 0}, radius = 2, " more
     static const struct bad bad[] = {
         {PLAIN_DOMAIN, "domain = { shape = 'egg' }", 0,
-         "domain.shape: expected one of box, disc, ball, cylinder, got the text 'egg'"},
+         "domain.shape: expected one of box, disc, ball, cylinder, solid, stl, got the text 'egg'"},
         {PLAIN_DOMAIN, "domain = { shape = 'disc', radius = 2 }", 0,
          "domain.centre: missing; expected list of dim numbers [m] (of a round domain)"},
         {PLAIN_DOMAIN, "domain = { shape = 'disc', centre = {0, 0} }", 0,

@@ -56,6 +56,33 @@ static void boxes(void)
     CU_ASSERT_EQUAL(surface_of((const uint32_t[]){3, 4, 5}), 2 * (12 + 15 + 20));
 }
 
+/* A cell that has collapsed adds nothing: onto a side of its neighbour, within a body or on its surface, or so that a
+ * side is a triangle or a line. */
+static void collapsed(void)
+{
+    size_t cells = 0, quads = 0;
+    uint32_t *cell = lattice((const uint32_t[]){2, 1, 1}, &cells), (*quad)[4] = NULL;
+    CU_ASSERT_PTR_NOT_NULL_FATAL(cell);
+    for (int end = 0; end < 2; end++) { /* the lower or the upper cell onto the side between the two */
+        uint32_t flat[16];
+        for (int i = 0; i < 16; i++) {
+            uint32_t v = cell[i];
+            flat[i] = end == 0 && v % 3 == 0 ? v + 1 : end == 1 && v % 3 == 2 ? v - 1 : v;
+        }
+        CU_ASSERT_TRUE_FATAL(verify_surface(flat, cells, 8, &quad, &quads));
+        CU_ASSERT_EQUAL(quads, 6);
+        free(quad);
+    }
+    uint32_t wedge[16]; /* one edge of the first cell onto another: a side is a line, two are triangles */
+    for (int i = 0; i < 16; i++) {
+        wedge[i] = cell[i] == 0 ? 3 : cell[i] == 6 ? 9 : cell[i];
+    }
+    CU_ASSERT_TRUE_FATAL(verify_surface(wedge, cells, 8, &quad, &quads));
+    CU_ASSERT_EQUAL(quads, 9);
+    free(quad);
+    free(cell);
+}
+
 static void flat_and_thin(void)
 {
     const uint32_t quad_cell[] = {0, 1, 3, 2}, line[] = {5, 6};
@@ -71,6 +98,7 @@ static void flat_and_thin(void)
 
 int main(void)
 {
-    static const struct unit_test tests[] = {{"boxes are closed", boxes}, {"2D and 1D", flat_and_thin}};
+    static const struct unit_test tests[] = {
+        {"boxes are closed", boxes}, {"collapsed cells", collapsed}, {"2D and 1D", flat_and_thin}};
     return unit_main("surface", tests, sizeof tests / sizeof *tests);
 }
