@@ -42,6 +42,7 @@ static void set_constants(struct solver_pressure *of)
     constants->cp = sqrt((constants->kappa + 4.0 / 3.0 * constants->mu) / constants->rho);
     constants->zp = constants->rho * constants->cp;
     of->compliance = 3.0 * (1.0 - 2.0 * scene->nu) / scene->E;
+    of->dissipation = asked->dissipation;
     of->restore = asked->restore;
     of->gamma = asked->gamma * constants->kappa;
     of->eta = asked->alpha / constants->rho;

@@ -38,6 +38,7 @@ struct solver_pressure {
     const struct solver_upwind *work;
     const struct solver_pressure_loops *loops;
     struct solver_material_constants constants; /* of the predictor: kappa~ and the p-wave that goes with it */
+    double dissipation;                         /* factor of S */
     double restore;                             /* share of a stray volume to be given back within a step */
     double compliance;                          /* 1 / kappa [1/Pa]; 0 in a truly incompressible body */
     double gamma, eta;                          /* of the pseudo-time: gamma [Pa], alpha / rho [m^3/kg] */

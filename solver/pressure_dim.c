@@ -29,6 +29,7 @@ static inline vec distance_of(const struct solver_upwind *work, size_t a, size_t
 static void weights(const struct solver_pressure *of, size_t begin, size_t end)
 {
     const struct solver_upwind *work = of->work;
+    double scale = of->dissipation / (2.0 * of->constants.zp);
     for (size_t a = begin; a < end; a++) {
         struct tensor H_a = area_map(work, a);
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
@@ -41,8 +42,8 @@ static void weights(const struct solver_pressure *of, size_t begin, size_t end)
                 area += (H_a.column[I] + H_b.column[I]) * (0.5 * distance[I]);
             }
             double normal = dot(along, area);
-            of->weight[ab] = work->pair[ab * PAIR + DIM] * normal * normal /
-                             (dot(along, along) * dot(distance, distance) * 2.0 * of->constants.zp);
+            of->weight[ab] = scale * work->pair[ab * PAIR + DIM] * normal * normal /
+                             (dot(along, along) * dot(distance, distance));
         }
     }
 }

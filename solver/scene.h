@@ -119,6 +119,7 @@ struct solver_incompressible {
     int solver;       /* enum solver_pressure_solver */
     double tolerance; /* share of a particle's volume that a stage may leave unbalanced */
     int iterations;   /* most of them, per stage */
+    double dissipation; /* of pressure jumps, over that of the printed flux */
     double restore;   /* share of a stray volume that is given back within a step */
     double modulus;   /* fictitious bulk modulus over the shear modulus */
     double gamma;     /* artificial compressibility over the fictitious bulk modulus */
