@@ -95,9 +95,9 @@ X("incompressible.iterations", INTEGER, AT(incompressible.iterations), 1, 100000
   "whole number in [1, 1000000]", "most iterations per stage; more are an error")                                      \
 X("incompressible.modulus", NUMBER, AT(incompressible.modulus), 0.1, 1e4, 0, "", "5", "number in [0.1, 1e4]",          \
   "fictitious bulk modulus of the predictor over the shear modulus: it gives the time step")                           \
-X("incompressible.dissipation", NUMBER, AT(incompressible.dissipation), 0, 1, 0, "", "1", "number in [0, 1]",          \
+X("incompressible.dissipation", NUMBER, AT(incompressible.dissipation), 0, 1, 0, "", "0.003", "number in [0, 1]",          \
   "of the jumps of the pressure, over that of the flux as printed: it changes volumes; 0: none")                       \
-X("incompressible.restore", NUMBER, AT(incompressible.restore), 0, 1, 0, "", "1", "number in [0, 1]",                  \
+X("incompressible.restore", NUMBER, AT(incompressible.restore), 0, 1, 0, "", "0.1", "number in [0, 1]",                  \
   "share of the volume that a particle has strayed from its pressure's which is given back within a step; 0: as printed") \
 X("incompressible.gamma", NUMBER, AT(incompressible.gamma), 1e-3, 1e3, 0, "", "1", "number in [0.001, 1000]",          \
   "artificial compressibility of the pseudo-time over the fictitious bulk modulus")                                    \
