@@ -143,8 +143,8 @@ static bool create(const double *value, struct oracle **oracle, char why[ORACLE_
     o.s_frequency = sqrt(3 * o.mu / g->rho) * o.k;
     double m = (g->A[0] + g->A[1] + g->A[2]) / 3;
     if (g->nu == 0.5 && m != 0) {
-        (void)snprintf(why, ORACLE_WHY, "material.nu: an incompressible cube has no p-wave; expected A + B + C = 0, got %g",
-                       3 * m);
+        (void)snprintf(why, ORACLE_WHY,
+                       "material.nu: an incompressible cube has no p-wave; expected A + B + C = 0, got %g", 3 * m);
         return false;
     }
     o.p_part = g->U0 * m;

@@ -18,7 +18,7 @@ static const char *why_not(const struct solver_body *body)
            : strcmp(scene->material_model, "neo-hookean") != 0 && strcmp(scene->material_model, "linear-elastic") != 0
                ? "the material's energy is not one of shape and one of volume; take material.model = \"neo-hookean\" "
                  "or \"linear-elastic\""
-           : body->stride != 0          ? "there is one bulk modulus in a body; take no material.at"
+           : body->stride != 0 ? "there is one bulk modulus in a body; take no material.at"
            : strcmp(scene->volume_flux, "pressure") != 0
                ? "only the jump of the pressure is symmetric; take volume_flux = \"pressure\""
            : strcmp(scene->reconstruction, "least-squares") == 0
@@ -140,9 +140,9 @@ void solver_pressure_free(struct solver_pressure *of)
     if (of == NULL) {
         return;
     }
-    double *const arrays[] = {of->p,        of->increment, of->reference, of->weight, of->mobility,
-                              of->slope,    of->moment,    of->residual,  of->image,  of->acceleration,
-                              of->diagonal, of->predicted, of->past_v,    of->partial, of->direction, of->total, of->past_p, of->stray};
+    double *const arrays[] = {of->p,      of->increment, of->reference, of->weight,       of->mobility, of->slope,
+                              of->moment, of->residual,  of->image,     of->acceleration, of->diagonal, of->predicted,
+                              of->past_v, of->partial,   of->direction, of->total,        of->past_p,   of->stray};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         free(arrays[i]);
     }
@@ -261,8 +261,8 @@ bool solver_pressure_correct(struct solver_pressure *of, const struct solver_sta
     of->step = dt;
     free_axes(of, t);
     set_out(of, state->rate + (of->work->J - state->U));
-    bool solved = poisson ? solver_pressure_poisson(of, increment, error)
-                          : solver_pressure_pseudo_time(of, increment, error);
+    bool solved =
+        poisson ? solver_pressure_poisson(of, increment, error) : solver_pressure_pseudo_time(of, increment, error);
     if (!solved) {
         memset(of->increment, 0, (size_t)SOLVER_STAGES * of->stencil->count * sizeof *of->increment);
         return false;

@@ -1,8 +1,8 @@
 /* Incompressible and nearly incompressible bodies by artificial compressibility (000_e9ec29e1bde7947d.txt section 5):
  * in place of J the pressure p is unknown, {p,F,p} and {p,F,H,p}.
  *
- * Predictor. The scheme itself, for a fictitious bulk modulus kappa~ (eq. 51): where a compressible body has J, this one
- * has 1 + p / kappa~, so that stresses, fluxes and time step are those of a body of that modulus.
+ * Predictor. The scheme itself, for a fictitious bulk modulus kappa~ (eq. 51): where a compressible body has J, this
+ * one has 1 + p / kappa~, so that stresses, fluxes and time step are those of a body of that modulus.
  *
  * Corrector, after each Runge-Kutta stage, over the time tau in which the stage's rates act (eq. 45a, 49). With D v =
  * V H : grad v, and D^T q the force of a pressure q, both by the stencil and at the stage's end:
@@ -43,17 +43,17 @@ struct solver_pressure {
     double compliance;                          /* 1 / kappa [1/Pa]; 0 in a truly incompressible body */
     double gamma, eta;                          /* of the pseudo-time: gamma [Pa], alpha / rho [m^3/kg] */
 
-    double *p;            /* [count] pressure [Pa] of the stresses that there are */
-    double *increment;    /* [SOLVER_STAGES][count] what each stage changed of it, last time */
-    double *reference;    /* [count] p_ref; NULL in a truly incompressible body */
-    double *stray;        /* [count] volume to be given back within a step [m^dim]; NULL: none */
-    double *weight;       /* [pairs] of the squared jump of the pressure, halved [m^(dim+2) s/kg] */
-    double *mobility;     /* [count][lanes] 1 / (2 rho V), 0 along an axis that is not free */
-    double *acceleration; /* [count][lanes] of a pressure */
-    double *slope;        /* [count][lanes] its gradient, where the flux reconstructs */
-    double *moment;       /* [count][lanes] what the reconstructed fluxes give back to the gradient */
-    double *residual;     /* [count] */
-    double *total;        /* [count] pressure of a residual */
+    double *p;                            /* [count] pressure [Pa] of the stresses that there are */
+    double *increment;                    /* [SOLVER_STAGES][count] what each stage changed of it, last time */
+    double *reference;                    /* [count] p_ref; NULL in a truly incompressible body */
+    double *stray;                        /* [count] volume to be given back within a step [m^dim]; NULL: none */
+    double *weight;                       /* [pairs] of the squared jump of the pressure, halved [m^(dim+2) s/kg] */
+    double *mobility;                     /* [count][lanes] 1 / (2 rho V), 0 along an axis that is not free */
+    double *acceleration;                 /* [count][lanes] of a pressure */
+    double *slope;                        /* [count][lanes] its gradient, where the flux reconstructs */
+    double *moment;                       /* [count][lanes] what the reconstructed fluxes give back to the gradient */
+    double *residual;                     /* [count] */
+    double *total;                        /* [count] pressure of a residual */
     double *direction, *image, *diagonal; /* [count] of conjugate gradients */
     double *predicted;                    /* [count][lanes] v_int */
     double *past_v, *past_p;              /* of the pseudo-time, else NULL */

@@ -42,8 +42,8 @@ static void weights(const struct solver_pressure *of, size_t begin, size_t end)
                 area += (H_a.column[I] + H_b.column[I]) * (0.5 * distance[I]);
             }
             double normal = dot(along, area);
-            of->weight[ab] = scale * work->pair[ab * PAIR + DIM] * normal * normal /
-                             (dot(along, along) * dot(distance, distance));
+            of->weight[ab] =
+                scale * work->pair[ab * PAIR + DIM] * normal * normal / (dot(along, along) * dot(distance, distance));
         }
     }
 }

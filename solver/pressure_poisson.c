@@ -45,8 +45,8 @@ bool solver_pressure_give_up(const struct solver_pressure *of, double left, stru
     const struct solver_incompressible *asked = &of->body->scene->incompressible;
     return solver_fail(error, SOLVER_BROKE_DOWN,
                        "the pressure has not converged in incompressible.iterations = %d: it leaves %.3g of a "
-                       "particle's volume unbalanced, and incompressible.tolerance is %g. Try more iterations, a larger "
-                       "tolerance or incompressible.solver = \"poisson\"",
+                       "particle's volume unbalanced, and incompressible.tolerance is %g. More iterations, a larger "
+                       "tolerance or incompressible.solver = \"poisson\" may do",
                        asked->iterations, left, asked->tolerance);
 }
 

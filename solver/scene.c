@@ -157,8 +157,10 @@ static void check_incompressible(lua_State *L, const struct solver_scene *scene)
         scene_refuse(L, "incompressible.solver: the scheme %s has no pressure of its own; take scheme = \"upwind\"",
                      scene->scheme);
     if (!(scene->nu >= 0.4))
-        scene_refuse(L, "incompressible.solver: expected material.nu in [0.4, 0.5], got %g; a body that yields so much "
-                        "in volume needs none", scene->nu);
+        scene_refuse(L,
+                     "incompressible.solver: expected material.nu in [0.4, 0.5], got %g; a body that yields so much "
+                     "in volume needs none",
+                     scene->nu);
     if (of->solver != SOLVER_PRESSURE_PSEUDO_TIME && of->alpha > 0)
         scene_refuse(L, "incompressible.alpha: belongs to incompressible.solver = \"pseudo-time\"");
 }

@@ -394,8 +394,9 @@ void solver_upwind_look(const void *of, size_t a, struct solver_point *point)
     const double *memory = memory_of(work, a);
     point->P_normal = 0.0;
     if (system->body->cloud->dim < 3) {
-        point->P_normal = memory != NULL ? work->material->flow->stress_normal(constants, point->F, point->J, memory)
-                                         : work->material->stress_normal(constants, point->F, material_J(system, a, point));
+        point->P_normal = memory != NULL
+                              ? work->material->flow->stress_normal(constants, point->F, point->J, memory)
+                              : work->material->stress_normal(constants, point->F, material_J(system, a, point));
     }
     point->plastic_strain = memory != NULL ? memory[0] : 0.0;
     cauchy(system, point);

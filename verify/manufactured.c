@@ -132,7 +132,8 @@ static bool create(const struct oracle_kind *kind, const double *value, struct o
         .constants = solver_material_constants(value[3], value[4], value[5]),
     };
     if (value[4] == 0.5 && !of->motion->isochoric) {
-        (void)snprintf(why, ORACLE_WHY, "material.nu: an incompressible body needs a motion that keeps every volume; "
+        (void)snprintf(why, ORACLE_WHY,
+                       "material.nu: an incompressible body needs a motion that keeps every volume; "
                        "take manufactured-isochoric, or nu < 0.5");
         free(body);
         return false;

@@ -237,6 +237,26 @@ static void add_isochoric(struct list *list)
     }
 }
 
+/* The same of a body that cannot yield in volume at all (solver/pressure.h). */
+static void add_incompressible(struct list *list)
+{
+    for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
+        for (int e = 1; s->closed && e < EVOLVED_SETS; e++) {
+            for (int b = 0; b < BOUNDARIES; b++) {
+                struct upwind of = {s, evolved_sets[e], "neo-hookean", 2, b};
+                struct verify_mms_case *which =
+                    add_upwind(list, "volumes kept, 2D, nu = 0.5", "manufactured-isochoric", of);
+                set(which, "material.nu=0.5");
+                set(which, "incompressible.solver=poisson");
+                set(which, "incompressible.tolerance=1e-10");
+                which->level[0] = 16;
+                which->level[1] = 32;
+                claim(which, nothing);
+            }
+        }
+    }
+}
+
 static void add_waves(struct list *list)
 {
     for (int dim = 1; dim <= 2; dim++) {
@@ -330,6 +350,7 @@ bool verify_mms_cases(struct verify_mms_case **cases, size_t *count, struct solv
     add_space(&list);
     add_perturbed(&list);
     add_isochoric(&list);
+    add_incompressible(&list);
     add_waves(&list);
     add_jst(&list);
     add_ulsph(&list);
