@@ -426,6 +426,9 @@ double solver_upwind_dissipated(const void *of, size_t a)
 
 static const struct solver_scheme_choice choices[] = {
     SOLVER_UPWIND_EVOLVED,
+    {"incompressible.solver = \"poisson\"",
+     "the pressure in place of J, up to material.nu = 0.5, by conjugate gradients"},
+    {"incompressible.solver = \"pseudo-time\"", "the same by the printed iteration"},
     {NULL, NULL},
 };
 

@@ -35,8 +35,16 @@ figures = {
 }
 beside = { n = 6 } -- the same twist
 
+-- There is no exact solution. That F strays from det F = 1 is the price of a pressure that does not alternate from
+-- particle to particle: at n = 8, with incompressible.dissipation = 0, 0.003 and 0.1, CHANGES
 gates = {
     { ["figure drift"] = 1e-10, ["figure energy rise"] = 1e-12, ["indicator clumping"] = 0.6 },
+    { when = { ["material.nu"] = 0.5, ["incompressible.solver"] = "poisson", n = 4 },
+      ["figure drift"] = 1e-10, ["figure energy rise"] = 1e-12, ["indicator clumping"] = 0.6,
+      ["figure volume change"] = 1.3e-3, ["figure iterations"] = 45 },
+    { when = { ["material.nu"] = 0.5, ["incompressible.solver"] = "poisson", n = 8 },
+      ["figure drift"] = 1e-10, ["figure energy rise"] = 1e-12, ["indicator clumping"] = 0.6,
+      ["figure volume change"] = 1e-3, ["indicator checkerboard"] = 0.35, ["figure iterations"] = 45, beside = 0.02 },
 }
 
 view = {
