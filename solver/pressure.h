@@ -12,18 +12,23 @@
  *
  * p_stage is the pressure that the stage's forces had, p_ref what the integrator makes of the pressures before. To the
  * right is added what is not printed: the volume V (det F - 1 - p_stage / kappa) by which F has strayed from what the
- * pressure says, over -dt, so that it comes back within a step (incompressible.restore). S is
- * the upwind dissipation of J by the jump of the pressure (eq. 30), at the new pressure: printed is that at the old
- * one, for which the equations of a truly incompressible body have no solution where a pressure that alternates from
- * particle to particle has no gradient. It is the derivative of a sum of squares of reconstructed jumps, and so
- * symmetric, which the printed flux is only without reconstruction. Elimination of v gives the equation of the
- * increment, symmetric and positive:
+ * pressure says, over -dt, times incompressible.restore: that share of it comes back within a step.
+ *
+ * S is incompressible.dissipation times the upwind dissipation of J by the jump of the pressure (eq. 30), at the new
+ * pressure. Printed is that at the old one; where a pressure that alternates from particle to particle has no gradient,
+ * the equations of a truly incompressible body then have no solution. S is the derivative of a sum of squares of
+ * reconstructed jumps, and so symmetric, which the printed flux is only without reconstruction. The two balance where
+ * V (det F - 1) = dt S p / restore: smooth pressures are paid for by volumes. Elimination of v gives the
+ * equation of the increment, symmetric and positive:
  *
  *     (tau D M^-1 D^T + S + V / (kappa tau)) (p - p_stage) = D v_int - S p_stage - V (p_stage - p_ref) / (kappa tau)
  *
  * Solved by conjugate gradients ("poisson"), or by the printed iteration in pseudo-time (eq. 52, 53). Where the
  * velocity along the normal is prescribed all over the surface of an incompressible body, a constant pressure moves
- * nothing: its mean stays zero, and what the prescribed motion changes of the volume is spread evenly. */
+ * nothing: its mean stays zero, and what the prescribed motion changes of the volume is spread evenly.
+ *
+ * The forces of the correction are equal and opposite in pairs. They have no moment where F is the gradient of x and H
+ * its cofactor, as in {p,F,p}; an evolved H differs from it by the error of the integrator. */
 #ifndef SOLVER_PRESSURE_H
 #define SOLVER_PRESSURE_H
 
@@ -95,17 +100,17 @@ extern const struct solver_pressure_loops solver_pressure_1d, solver_pressure_2d
 bool solver_pressure_create(const struct solver_body *body, const struct solver_stencil *stencil,
                             const struct solver_upwind *work, struct solver_pressure **pressure,
                             struct solver_error *error);
-void solver_pressure_free(struct solver_pressure *pressure);
+void solver_pressure_free(struct solver_pressure *of);
 
 /* The initial pressures, from the Jacobians that the scheme has put in work->J. */
-void solver_pressure_start(const struct solver_pressure *pressure);
+void solver_pressure_start(const struct solver_pressure *of);
 /* Strain energy of particle a's change of volume [J/m^3]: p^2 / (2 kappa). */
-double solver_pressure_energy(const struct solver_pressure *pressure, size_t particle);
+double solver_pressure_energy(const struct solver_pressure *of, size_t a);
 /* Before a step: the pressures are those of the state, whatever a step that failed has left. */
-void solver_pressure_begin(const struct solver_pressure *pressure);
+void solver_pressure_begin(const struct solver_pressure *of);
 /* After a stage's update and the constraints of faces, at time t: corrects v and p, and what the integrator sums of
  * them. Fails (SOLVER_BROKE_DOWN) where the iteration does not reach its tolerance. */
-bool solver_pressure_correct(struct solver_pressure *pressure, const struct solver_state *state,
+bool solver_pressure_correct(struct solver_pressure *of, const struct solver_state *state,
                              const struct solver_integrator *integrator, int stage, double t, double dt,
                              struct solver_error *error);
 

@@ -77,7 +77,7 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
 static bool create(const struct solver_body *body, void **out, struct solver_error *error)
 {
     void *made = NULL;
-    if (!solver_upwind_create(body, sizeof(struct solver_upwind_system), &made, error)) {
+    if (!solver_upwind_create(body, sizeof(struct solver_upwind_system), &made, error) || made == NULL) {
         return false;
     }
     struct solver_upwind_system *system = made;
