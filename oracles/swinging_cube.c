@@ -9,12 +9,15 @@
  *
  *     ai(t) = U0 (m cos(wp t) + (Ai - m) cos(ws t)),   wp = sqrt(3) k cp,   ws = sqrt(3) k cs.
  *
+ * At nu = 1/2 the s-wave alone is left, which needs no pressure.
+ *
  * On Xi = 0 si = 0: no normal displacement, no shear traction (it goes with si sj). On Xi = 1 ci = 0: no tangential
  * displacement, no normal traction (it goes with c1 c2 c3). */
 #include "oracles/kind.h"
 #include "oracles/self_check_parts.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
@@ -40,7 +43,8 @@ static const struct oracle_parameter parameters[] = {
     {"C", "-", "relative amplitude of u_z", -INFINITY, INFINITY, false, false, 1},
     {"U0", "m", "amplitude", -INFINITY, INFINITY, false, false, 5e-4},
     {"material.E", "Pa", "Young's modulus", 0, INFINITY, true, false, 17e6},
-    {"material.nu", "-", "Poisson's ratio; the p-wave is infinitely fast at 0.5", -1, 0.5, true, true, 0.3},
+    {"material.nu", "-", "Poisson's ratio; 0.5, where the p-wave is infinitely fast, if A + B + C = 0", -1, 0.5, true,
+     false, 0.3},
     {"material.rho", "kg/m^3", "density", 0, INFINITY, true, false, 1100},
     {0},
 };
@@ -134,10 +138,15 @@ static bool create(const double *value, struct oracle **oracle, char why[ORACLE_
     const struct given *g = &o.given;
     o.k = PI / (2 * SIDE);
     o.mu = g->E / (2 * (1 + g->nu));
-    o.lambda = g->E * g->nu / ((1 + g->nu) * (1 - 2 * g->nu));
+    o.lambda = g->nu < 0.5 ? g->E * g->nu / ((1 + g->nu) * (1 - 2 * g->nu)) : 2 * o.mu;
     o.p_frequency = sqrt(3 * (o.lambda + 2 * o.mu) / g->rho) * o.k;
     o.s_frequency = sqrt(3 * o.mu / g->rho) * o.k;
     double m = (g->A[0] + g->A[1] + g->A[2]) / 3;
+    if (g->nu == 0.5 && m != 0) {
+        (void)snprintf(why, ORACLE_WHY,
+                       "material.nu: an incompressible cube has no p-wave; expected A + B + C = 0, got %g", 3 * m);
+        return false;
+    }
     o.p_part = g->U0 * m;
     for (int i = 0; i < 3; i++) {
         o.s_part[i] = g->U0 * (g->A[i] - m);
@@ -146,14 +155,15 @@ static bool create(const double *value, struct oracle **oracle, char why[ORACLE_
 }
 
 /* By way of the bulk modulus, so that a slip in the oracle's own constants is seen; 1 - 2 nu and 1 + nu are exact near
- * their zeros. */
+ * their zeros. Without a p-wave nothing depends on it, and an incompressible cube has that of nu = 1/3. */
 struct moduli {
     double bulk, mu; /* [Pa] */
 };
 
 static struct moduli moduli(const struct given *g)
 {
-    return (struct moduli){.bulk = g->E / (3 * (1 - 2 * g->nu)), .mu = g->E / (2 * (1 + g->nu))};
+    double mu = g->E / (2 * (1 + g->nu));
+    return (struct moduli){.bulk = g->nu < 0.5 ? g->E / (3 * (1 - 2 * g->nu)) : 8 * mu / 3, .mu = mu};
 }
 
 static double p_modulus(const struct moduli *of)

@@ -190,7 +190,7 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
         }
         for (size_t i = 0; i < (size_t)faces->dim; i++) {
             const struct solver_held *axis = &constraint->axis[i];
-            bool held = t <= axis->until ? axis->held : axis->after;
+            bool held = solver_held_at(axis, t);
             double free_part = mirrored ? constraint->parity * (of_image[i] - image_velocity[i]) : 0.0;
             at[i] = free_part + (held ? 0.0 : at[i]) + velocity[i];
         }

@@ -20,6 +20,12 @@ struct solver_constraint {
     double parity;
 };
 
+/* Whether the velocity along a constraint's axis is prescribed at time t. */
+static inline bool solver_held_at(const struct solver_held *axis, double t)
+{
+    return t <= axis->until ? axis->held : axis->after;
+}
+
 struct solver_faces {
     int dim;
     size_t constraint_count;

@@ -75,6 +75,10 @@ static void all_columns(struct columns *at, const double *total_energy)
     if (at->history != NULL && at->history->flows) {
         column(at, "plastic_work", energy_unit[dim], &totals->plastic, stride);
     }
+    if (at->history != NULL && at->history->incompressible) {
+        column(at, "iterations", "-", &totals->iterations, stride);
+        column(at, "volume_change", "-", &totals->volume_change, stride);
+    }
     if (at->history != NULL && at->history->walled) {
         components(at, "wall_impulse", momentum_unit[dim], totals->wall, stride, 0, dim);
     }

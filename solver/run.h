@@ -40,6 +40,8 @@ struct solver_totals {
     double kinetic, strain; /* [J] */
     double plastic;         /* work that plastic flow has taken since the start [J]; 0 where nothing is plastic */
     double external;        /* work of tractions and body forces since the start [J] */
+    double iterations;      /* of the pressure since the start; 0 where it is not solved for */
+    double volume_change;   /* largest |J - 1| of a particle; 0 where the pressure is not solved for */
     double wall[3];         /* impulse on the rigid wall since the start [N s]; 0 where there is none */
 };
 
@@ -48,6 +50,7 @@ struct solver_history {
     size_t count;
     struct solver_totals *totals; /* [count] */
     bool flows;                   /* the material flows plastically: totals->plastic tells something */
+    bool incompressible;          /* the pressure is solved for: iterations and volume_change tell something */
     bool walled;                  /* there is a rigid wall: totals->wall tells something */
     size_t probe_count;
     char (*probe_name)[64]; /* [probe_count] */

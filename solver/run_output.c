@@ -130,6 +130,17 @@ bool solver_run_output(struct solver_run *run, struct solver_output *output, str
     return true;
 }
 
+/* What the solution of the pressure has taken, and what it leaves. */
+static void note_volumes(const struct solver_run *run, struct solver_totals *totals)
+{
+    totals->iterations = run->scheme->iterations(run->system);
+    for (size_t a = 0; a < run->shown.count; a++) {
+        struct solver_point point;
+        run->scheme->look(run->system, a, &point);
+        totals->volume_change = fmax(totals->volume_change, fabs(point.J - 1.0));
+    }
+}
+
 static void add_particle(const struct solver_run *run, size_t a, double V, struct solver_totals *totals)
 {
     const struct solver_state *state = &run->state;
@@ -208,6 +219,7 @@ static bool start_history(struct solver_run *run, struct solver_error *error)
     size_t dim = (size_t)run->cloud->dim;
     history->probe_count = run->scene->probe_count;
     history->flows = solver_scene_flows(run->scene);
+    history->incompressible = run->scheme->iterations != NULL && !isnan(run->scheme->iterations(run->system));
     history->walled = run->wall.count > 0;
     history->body_count = run->cloud->body != NULL ? run->scene->shape_count : 1;
     if (!solver_alloc((void **)&history->probe_name, history->probe_count, sizeof *history->probe_name, "probes",
@@ -235,6 +247,9 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
     memcpy(totals.wall, run->wall.impulse, sizeof totals.wall);
     for (size_t a = 0; a < run->shown.count; a++) { /* one order of summation, whatever the threads */
         add_particle(run, a, V[a], &totals);
+    }
+    if (history->incompressible) {
+        note_volumes(run, &totals);
     }
     for (size_t i = 0; i < history->probe_count; i++) {
         size_t a = run->probe[i];

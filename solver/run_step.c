@@ -127,6 +127,13 @@ static bool update(struct solver_run *run, const struct solver_stage *stage, dou
     return solver_faces_constrain(&run->faces, &run->body, t, state->lanes, state->v, error);
 }
 
+/* What the scheme changes of a stage's state in the light of all of it. */
+static bool correct(struct solver_run *run, int s, double t, double dt, struct solver_error *error)
+{
+    return run->scheme->correct == NULL ||
+           run->scheme->correct(run->system, &run->state, run->integrator, s, t, dt, error);
+}
+
 static double largest_step(const struct solver_run *run)
 {
     return run->scheme->largest_step(run->system);
@@ -159,7 +166,8 @@ static bool stages(struct solver_run *run, double dt, double *work, struct solve
         double next = s + 1 < integrator->stages ? integrator->stage[s + 1].time : 1.0;
         double power;
         bool known = evaluate(run, s, dt, &power, error);
-        if (!known || !update(run, stage, run->time + next * dt, dt, error)) {
+        if (!known || !update(run, stage, run->time + next * dt, dt, error) ||
+            !correct(run, s, run->time + next * dt, dt, error)) {
             if (known || s > 0) { /* else there is nothing to take back, and no start of this step yet */
                 take_back(run);
             }

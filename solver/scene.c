@@ -147,6 +147,24 @@ static void check_rigid_wall(lua_State *L, const struct solver_scene *scene)
         scene_refuse(L, "rigid_wall.normal: expected a direction, from the wall to the body, got zeros");
 }
 
+/* A pressure of its own is part of the scheme upwind, and belongs to a material that hardly yields in volume. */
+static void check_incompressible(lua_State *L, const struct solver_scene *scene)
+{
+    const struct solver_incompressible *of = &scene->incompressible;
+    if (of->solver == SOLVER_PRESSURE_NONE)
+        return;
+    if (strcmp(scene->scheme, "upwind") != 0)
+        scene_refuse(L, "incompressible.solver: the scheme %s has no pressure of its own; take scheme = \"upwind\"",
+                     scene->scheme);
+    if (!(scene->nu >= 0.4))
+        scene_refuse(L,
+                     "incompressible.solver: expected material.nu in [0.4, 0.5], got %g; a body that yields so much "
+                     "in volume needs none",
+                     scene->nu);
+    if (of->solver != SOLVER_PRESSURE_PSEUDO_TIME && of->alpha > 0)
+        scene_refuse(L, "incompressible.alpha: belongs to incompressible.solver = \"pseudo-time\"");
+}
+
 static int read_scene(lua_State *L)
 {
     struct solver_scene *scene = lua_touserdata(L, 1);
@@ -154,10 +172,10 @@ static int read_scene(lua_State *L)
     scene_lua_run_file(L);
     scene_overrides_finish(L);
     scene_read_plain(L, scene);
-    if (scene->nu == 0.5)
-        scene_refuse(L,
-                     "material.nu: 0.5 is incompressible, which needs a solver that is not there yet; take nu < 0.5, "
-                     "say 0.4999");
+    if (scene->nu == 0.5 && scene->incompressible.solver == SOLVER_PRESSURE_NONE)
+        scene_refuse(L, "material.nu: 0.5 is incompressible, and the pressure is then an unknown of its own; take "
+                        "incompressible.solver = \"poisson\", or nu < 0.5, say 0.4999");
+    check_incompressible(L, scene);
     check_flow(L, scene);
     check_rigid_wall(L, scene);
     scene_read_symmetry(L, scene);

@@ -115,6 +115,19 @@ struct solver_jst_terms {
     double kappa2, kappa4; /* of the harmonic and the biharmonic part; 0: none */
 };
 
+/* How the pressure of an incompressible or nearly incompressible body is found (pressure.h). */
+enum solver_pressure_solver { SOLVER_PRESSURE_NONE, SOLVER_PRESSURE_POISSON, SOLVER_PRESSURE_PSEUDO_TIME };
+struct solver_incompressible {
+    int solver;         /* enum solver_pressure_solver */
+    double tolerance;   /* share of a particle's volume that a stage may leave unbalanced */
+    int iterations;     /* most of them, per stage */
+    double dissipation; /* of pressure jumps, over that of the printed flux */
+    double restore;     /* share of a stray volume that is given back within a step */
+    double modulus;     /* fictitious bulk modulus over the shear modulus */
+    double gamma;       /* artificial compressibility over the fictitious bulk modulus */
+    double alpha;       /* of the Laplacian in pseudo-time */
+};
+
 /* A rigid plane wall without friction (wall.h); a normal of zeros: none. */
 struct solver_rigid_wall {
     double point[3], normal[3]; /* [m]; towards the body, of any length */
@@ -237,6 +250,7 @@ struct solver_scene {
     struct solver_ulsph_terms ulsph;
     int contact_law;         /* enum solver_contact_law */
     double contact_distance; /* [m]; 0: the spacing */
+    struct solver_incompressible incompressible;
     struct solver_rigid_wall rigid_wall;
     char integrator[SOLVER_NAME];
     double cfl;

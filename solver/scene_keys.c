@@ -94,6 +94,23 @@ X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", 
   "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
 X("angular_momentum", WORD, AT(angular_momentum), 0, 0, 0, "free projected", "free", "one of free, projected",           \
   "as the scheme leaves it, or kept by the least change of the forces within the body (Appendix B)")                   \
+X("incompressible.solver", INDEX, AT(incompressible.solver), 0, 0, 0, "none poisson pseudo-time", "none",               \
+  "one of none, poisson, pseudo-time",                                                                                 \
+  "pressure in place of J, for material.nu up to 0.5: by conjugate gradients, or by iteration in pseudo-time as printed") \
+X("incompressible.tolerance", NUMBER, AT(incompressible.tolerance), 1e-14, 1e-2, 0, "", "1e-8",                        \
+  "number in [1e-14, 0.01]", "share of a particle's volume that a stage's pressure may leave unbalanced")              \
+X("incompressible.iterations", INTEGER, AT(incompressible.iterations), 1, 1000000, 0, "", "10000",                     \
+  "whole number in [1, 1000000]", "most iterations per stage; more are an error")                                      \
+X("incompressible.modulus", NUMBER, AT(incompressible.modulus), 0.1, 1e4, 0, "", "5", "number in [0.1, 1e4]",          \
+  "fictitious bulk modulus of the predictor over the shear modulus: it gives the time step")                           \
+X("incompressible.dissipation", NUMBER, AT(incompressible.dissipation), 0, 1, 0, "", "0.003", "number in [0, 1]",          \
+  "of the jumps of the pressure, over that of the flux as printed: it changes volumes; 0: none")                       \
+X("incompressible.restore", NUMBER, AT(incompressible.restore), 0, 1, 0, "", "0.1", "number in [0, 1]",                  \
+  "share of the volume that a particle has strayed from its pressure's which is given back within a step; 0: as printed") \
+X("incompressible.gamma", NUMBER, AT(incompressible.gamma), 1e-3, 1e3, 0, "", "1", "number in [0.001, 1000]",          \
+  "artificial compressibility of the pseudo-time over the fictitious bulk modulus")                                    \
+X("incompressible.alpha", NUMBER, AT(incompressible.alpha), 0, 1, 0, "", "0", "number in [0, 1]",                      \
+  "Laplacian that speeds the pseudo-time up; it smooths the pressure, and changes volumes; 0: none")                   \
 X("jst.kappa2", NUMBER, AT(jst.kappa2), 0, 10, 0, "", "0", "number in [0, 10]", "harmonic dissipation; 0: none")          \
 X("jst.kappa4", NUMBER, AT(jst.kappa4), 0, 10, 0, "", "0.015625", "number in [0, 10]", "biharmonic dissipation; 0: none")    \
 X("ulsph.gradient", INDEX, AT(ulsph.gradient), 0, 0, 0, "corrected plain", "corrected", "one of corrected, plain",       \

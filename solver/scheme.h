@@ -82,6 +82,13 @@ struct solver_scheme {
     bool (*prepare)(void *system, double dt, struct solver_error *error);
     /* All rates of the present state at time t, in a step of size dt; without tractions and body forces. */
     bool (*evaluate)(void *system, double t, double dt, struct solver_error *error);
+    /* After a stage's update of the state to time t and the constraints of faces; NULL: nothing to do. Changes
+     * velocities and what else the stage left open, and what the integrator sums of it; what follows from that is
+     * refreshed. */
+    bool (*correct)(void *system, const struct solver_state *state, const struct solver_integrator *integrator,
+                    int stage, double t, double dt, struct solver_error *error);
+    /* Iterations that corrections have taken since the start; NaN where the scene needs none. NULL: it never does. */
+    double (*iterations)(const void *system);
     /* What follows from a changed state, particle by particle. Particles [begin, end); runs in a thread. */
     void (*refresh)(void *system, size_t begin, size_t end);
     /* The longest step [s] that the scene's CFL number allows. */

@@ -4,6 +4,7 @@
 
 #include "solver/memory.h"
 #include "solver/pieces.h"
+#include "solver/pressure.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,6 +42,7 @@ static void bind_stencil(struct solver_upwind_system *system)
 void solver_upwind_destroy(void *of)
 {
     struct solver_upwind_system *system = of;
+    solver_pressure_free(system->pressure);
     solver_stencil_free(system->stencil);
     free(system);
 }
@@ -74,7 +76,20 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
 
 static bool create(const struct solver_body *body, void **out, struct solver_error *error)
 {
-    return solver_upwind_create(body, sizeof(struct solver_upwind_system), out, error);
+    void *made = NULL;
+    if (!solver_upwind_create(body, sizeof(struct solver_upwind_system), &made, error) || made == NULL) {
+        return false;
+    }
+    struct solver_upwind_system *system = made;
+    if (!solver_pressure_create(body, system->stencil, &system->work, &system->pressure, error)) {
+        solver_upwind_destroy(system);
+        return false;
+    }
+    if (system->pressure != NULL) {
+        system->work.constants = &system->pressure->constants;
+    }
+    *out = system;
+    return true;
 }
 
 struct solver_geometry solver_upwind_geometry(const void *of)
@@ -86,7 +101,8 @@ struct solver_geometry solver_upwind_geometry(const void *of)
         .face_point = stencil->face_point,
         .face_point_count = stencil->face_point_count,
         .pairs = stencil->pairs,
-        .bytes = (double)solver_stencil_bytes(stencil),
+        .bytes = (double)(solver_stencil_bytes(stencil) +
+                          (system->pressure != NULL ? system->pressure->doubles * sizeof(double) : 0)),
         .passes = 2, /* gradients, rates */
         .residual = fmax(system->residuals.closure, system->residuals.linear),
     };
@@ -170,6 +186,9 @@ bool solver_upwind_start(void *of, struct solver_error *error)
         }
     }
     system->loops->measures(work->frozen, 0, cloud->count, work->F, work->H, work->J);
+    if (system->pressure != NULL) {
+        solver_pressure_start(system->pressure);
+    }
     return true;
 }
 
@@ -182,6 +201,9 @@ bool solver_upwind_prepare(void *of, double dt, struct solver_error *error)
     size_t count = system->body->cloud->count;
     (void)dt;
     (void)error;
+    if (system->pressure != NULL) {
+        solver_pressure_begin(system->pressure);
+    }
     if (work->flown == NULL) {
         return true;
     }
@@ -232,6 +254,32 @@ bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *
     return true;
 }
 
+static bool correct(void *of, const struct solver_state *state, const struct solver_integrator *integrator, int stage,
+                    double t, double dt, struct solver_error *error)
+{
+    struct solver_upwind_system *system = of;
+    size_t count = system->body->cloud->count;
+    if (system->pressure == NULL) {
+        return true;
+    }
+    if (!solver_pressure_correct(system->pressure, state, integrator, stage, t, dt, error)) {
+        return false;
+    }
+#pragma omp parallel for schedule(static)
+    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+        struct solver_piece at = solver_piece_at(piece, count);
+        system->loops->stresses(&system->work, at.begin, at.end);
+    }
+    return true;
+}
+
+/* Iterations of the pressure since the start; NaN where there is none. */
+static double iterations(const void *of)
+{
+    const struct solver_upwind_system *system = of;
+    return system->pressure != NULL ? (double)system->pressure->iterations : NAN;
+}
+
 void solver_upwind_refresh(void *of, size_t begin, size_t end)
 {
     const struct solver_upwind_system *system = of;
@@ -260,7 +308,11 @@ double solver_upwind_largest_step(const void *of)
 size_t solver_upwind_first_broken(const void *of, size_t begin, size_t end)
 {
     const struct solver_upwind_system *system = of;
-    return system->loops->first_broken(&system->work, begin, end);
+    struct solver_upwind work = system->work;
+    if (system->pressure != NULL) {
+        work.J = NULL; /* it stands for the pressure: the Jacobian is that of F */
+    }
+    return system->loops->first_broken(&work, begin, end);
 }
 
 const char *solver_upwind_complaint(const void *of, size_t a)
@@ -269,7 +321,7 @@ const char *solver_upwind_complaint(const void *of, size_t a)
     const struct solver_upwind *work = &system->work;
     size_t tensor = (size_t)system->body->cloud->dim * system->loops->lanes;
     double J;
-    if (work->J != NULL) {
+    if (work->J != NULL && system->pressure == NULL) {
         J = work->J[a];
     } else {
         system->loops->measures(false, 0, 1, work->F + a * tensor, NULL, &J);
@@ -303,7 +355,13 @@ static void measures_of(const struct solver_upwind_system *system, size_t a, str
     system->loops->measures(work->frozen, 0, 1, F, H, &J);
     rows_of(system, F, 0, point->F);
     rows_of(system, work->H != NULL ? work->H : H, work->H != NULL ? a : 0, point->H);
-    point->J = work->J != NULL ? work->J[a] : J;
+    point->J = work->J != NULL && system->pressure == NULL ? work->J[a] : J;
+}
+
+/* The Jacobian that the material is asked with: where a pressure stands in its place, the one that goes with it. */
+static double material_J(const struct solver_upwind_system *system, size_t a, const struct solver_point *point)
+{
+    return system->pressure != NULL ? system->work.J[a] : point->J;
 }
 
 /* sigma = P F^T / J; with linear kinematics sigma = P. */
@@ -336,8 +394,9 @@ void solver_upwind_look(const void *of, size_t a, struct solver_point *point)
     const double *memory = memory_of(work, a);
     point->P_normal = 0.0;
     if (system->body->cloud->dim < 3) {
-        point->P_normal = memory != NULL ? work->material->flow->stress_normal(constants, point->F, point->J, memory)
-                                         : work->material->stress_normal(constants, point->F, point->J);
+        point->P_normal = memory != NULL
+                              ? work->material->flow->stress_normal(constants, point->F, point->J, memory)
+                              : work->material->stress_normal(constants, point->F, material_J(system, a, point));
     }
     point->plastic_strain = memory != NULL ? memory[0] : 0.0;
     cauchy(system, point);
@@ -351,6 +410,9 @@ double solver_upwind_energy(const void *of, size_t a)
     const struct solver_material_constants *constants = work->constants + a * work->stride;
     const double *memory = memory_of(work, a);
     measures_of(system, a, &point);
+    if (system->pressure != NULL) {
+        return work->material->energy(constants, point.F, point.H, 1.0) + solver_pressure_energy(system->pressure, a);
+    }
     return memory != NULL ? work->material->flow->energy(constants, point.F, point.J, memory)
                           : work->material->energy(constants, point.F, point.H, point.J);
 }
@@ -364,6 +426,9 @@ double solver_upwind_dissipated(const void *of, size_t a)
 
 static const struct solver_scheme_choice choices[] = {
     SOLVER_UPWIND_EVOLVED,
+    {"incompressible.solver = \"poisson\"",
+     "the pressure in place of J, up to material.nu = 0.5, by conjugate gradients"},
+    {"incompressible.solver = \"pseudo-time\"", "the same by the printed iteration"},
     {NULL, NULL},
 };
 
@@ -377,5 +442,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .destroy = solver_upwind_destroy,
     .geometry = solver_upwind_geometry,
     .fields = solver_upwind_fields,
+    .correct = correct,
+    .iterations = iterations,
     SOLVER_UPWIND_SHARED,
 };

@@ -8,12 +8,15 @@
 #include "solver/stencil.h"
 #include "solver/upwind.h"
 
+struct solver_pressure;
+
 struct solver_upwind_system {
     const struct solver_body *body;
     const struct solver_upwind_loops *loops;
     struct solver_stencil *stencil;
     struct solver_stencil_residuals residuals;
     struct solver_upwind work;
+    struct solver_pressure *pressure; /* NULL: J is evolved, or none */
     /* Of a scheme whose dissipation is not Riemann's, for particles [begin, end), in a thread; else NULL. The first
      * follows the gradients and may read the state of neighbours, the second stands for the rates of upwind.h and may
      * read what the first has left at neighbours. */

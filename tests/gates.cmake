@@ -269,6 +269,27 @@ assay_test(gate-twisting-column-sees-checkerboard LABELS gate mustfail COMMAND $
 assay_test(gate-twisting-column-sees-drift LABELS gate mustfail COMMAND ${fails} "<= 1e-10        [-]  FAIL"
   $<TARGET_FILE:assay> verify twisting-column --levels 6 --set stencil=closed --set perturb=0.1 --set t_end=0.01
   --out gates/twisting-column-drift)
+# The incompressible column, its volumes, and what an iteration that is cut short says. As printed volumes stray.
+assay_test(gate-incompressible-column LABELS gate COMMAND $<TARGET_FILE:assay> verify incompressible-column --levels 4
+  --out gates/incompressible-column)
+assay_test(gate-incompressible-column-fine LABELS gate slow COMMAND $<TARGET_FILE:assay> verify incompressible-column
+  --out gates/incompressible-column-fine)
+assay_test(gate-incompressible-column-sees-volumes LABELS gate mustfail COMMAND ${fails} "<= 0.0013       [-]  FAIL"
+  $<TARGET_FILE:assay> verify incompressible-column --levels 4 --set incompressible.restore=0 --set t_end=0.03
+  --out gates/incompressible-column-volumes)
+assay_test(incompressible-column-says-what-to-do LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 3
+  "More iterations, a larger tolerance or incompressible.solver" $<TARGET_FILE:assay> run incompressible-column
+  --set n=4 --set incompressible.solver=pseudo-time --set incompressible.iterations=10
+  --out gates/incompressible-column-short)
+# Incompressible bodies with exact solutions: a manufactured motion, and the swinging cube's s-wave.
+set(incompressible --set material.nu=0.5 --set incompressible.solver=poisson)
+assay_test(gate-manufactured-incompressible LABELS gate mms COMMAND $<TARGET_FILE:assay> verify manufactured-isochoric
+  ${incompressible} --out gates/manufactured-incompressible)
+set(s_wave ${incompressible} --set incompressible.tolerance=1e-13 --set A=1 --set B=-1 --set C=0)
+assay_test(gate-swinging-cube-incompressible LABELS gate COMMAND $<TARGET_FILE:assay> verify swinging-cube ${s_wave}
+  --set stencil=sbp2 ${rk2} --out gates/swinging-cube-incompressible)
+assay_test(gate-swinging-cube-incompressible-sbp4 LABELS gate slow COMMAND $<TARGET_FILE:assay> verify swinging-cube
+  ${s_wave} --out gates/swinging-cube-incompressible-sbp4)
 # The bending column: at n = 8, which takes a minute, clumping 0.709 and checkerboard 0.016; with sbp2 0.491.
 assay_test(gate-bending-column LABELS gate COMMAND $<TARGET_FILE:assay> verify bending-column --levels 4 --set t_end=0.1
   --out gates/bending-column)

@@ -140,6 +140,8 @@ assay_unit_mutant(angular-last-stage solver_run_angular "a spinning body over 10
 assay_unit_mutant(angular-inertia-sign solver_run_angular "every integrator, and densities that differ")
 assay_unit_mutant(angular-load-impulse solver_run_angular "loads turn the body")
 assay_unit_mutant(plastic-forgotten solver_run_plastic "energy balance")
+assay_unit_mutant(pressure-moment solver_pressure "the operator is symmetric and positive")
+assay_unit_mutant(pressure-stray solver_pressure "volumes are kept")
 assay_unit_mutant(ulsph-pair-volumes solver_run_momentum "linear momentum over 1000 steps, 2D")
 assay_unit_mutant(index-without-safety verify_grid_convergence "a known limit")
 assay_unit_mutant(front-of-cost-alone verify_trade "fronts")

@@ -131,6 +131,17 @@ static bool create(const struct oracle_kind *kind, const double *value, struct o
         .shape = {.L = value[0], .period = value[1], .amplitude = value[2]},
         .constants = solver_material_constants(value[3], value[4], value[5]),
     };
+    if (value[4] == 0.5 && !of->motion->isochoric) {
+        (void)snprintf(why, ORACLE_WHY,
+                       "material.nu: an incompressible body needs a motion that keeps every volume; "
+                       "take manufactured-isochoric, or nu < 0.5");
+        free(body);
+        return false;
+    }
+    if (value[4] == 0.5) { /* J is 1: any bulk modulus gives the stress without pressure, which the body force is of */
+        body->constants.kappa = body->constants.mu;
+        body->constants.lambda = body->constants.mu / 3;
+    }
     *oracle = (struct oracle *)body;
     return true;
 }
@@ -167,7 +178,7 @@ static void describe(struct entry *entry)
         {"period", "s", "period of the motion", 0, INFINITY, true, true, 1},
         {"amplitude", "-", motion->amplitude, 0, motion->most, true, false, motion->typical},
         {"material.E", "Pa", "Young's modulus", 0, INFINITY, true, true, 1},
-        {"material.nu", "-", "Poisson's ratio", -1, 0.5, true, true, 0.3},
+        {"material.nu", "-", "Poisson's ratio; 0.5 where the motion keeps volumes", -1, 0.5, true, false, 0.3},
         {"material.rho", "kg/m^3", "density", 0, INFINITY, true, true, 1},
         {.name = NULL},
     };

@@ -68,3 +68,29 @@ bool verify_energy_rise(const struct verify_measuring *in, const struct verify_a
     *value /= supply;
     return true;
 }
+
+bool verify_volume_change(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                          struct solver_error *error)
+{
+    const struct solver_history *history = in->history;
+    (void)argument;
+    (void)error;
+    *value = history->count > 0 && history->incompressible ? 0 : NAN;
+    for (size_t i = 0; i < history->count; i++) {
+        double change = history->totals[i].volume_change;
+        *value = change <= *value || isnan(*value) ? *value : change; /* a NaN stays */
+    }
+    return true;
+}
+
+bool verify_iterations(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                       struct solver_error *error)
+{
+    const struct solver_history *history = in->history;
+    (void)argument;
+    (void)error;
+    *value = history->count > 0 && history->incompressible
+                 ? history->totals[history->count - 1].iterations / (double)in->level->facts.steps
+                 : NAN;
+    return true;
+}

@@ -88,6 +88,14 @@ bool verify_energy_lost(const struct verify_measuring *in, const struct verify_a
 bool verify_energy_rise(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                         struct solver_error *error);
 
+/* Largest |J - 1| of a particle over time; NaN where the pressure is not solved for. */
+bool verify_volume_change(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                          struct solver_error *error);
+
+/* Iterations per step that the pressure took; NaN where it is not solved for. */
+bool verify_iterations(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                       struct solver_error *error);
+
 /* Period [s] of u(t) = a + exp(-d t) (b cos w t + c sin w t), fitted by least squares to `count` rows; NaN where fewer
  * than one and a half periods are there, or such a motion explains less than half of what is there. */
 double verify_period_fit(size_t count, const double *time, const double *displacement);

@@ -27,8 +27,12 @@ faces = ({
 
 gates = {
     { p = 1e-2, P_all = 1 },
-    { when = { dim = 2, stencil = "sbp4", integrator = "rk4", evolved = "pFHJ", n = 24 }, -- whatever the faces prescribe
+    { when = { dim = 2, stencil = "sbp4", integrator = "rk4", evolved = "pFHJ", n = 24,
+      ["material.nu"] = 0.4999 }, -- whatever the faces prescribe
       p = 3.3e-4, ["rate p"] = 2.7, P_all = 6.6e-3, ["rate P_all"] = 2.6 },
+    -- --set material.nu=0.5 --set incompressible.solver=poisson: 1.11e-4, 2.6; 8.8e-2, 3.6
+    { when = { ["material.nu"] = 0.5, dim = 2, stencil = "sbp4", integrator = "rk4", n = 24 },
+      p = 1.3e-4, ["rate p"] = 2.4, P_all = 9.7e-2, ["rate P_all"] = 2.4 },
 }
 
 view = {

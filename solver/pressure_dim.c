@@ -1,0 +1,198 @@
+/* The pair loops of the pressure of an incompressible body (pressure.h), compiled per dimension. */
+#include "solver/pressure.h"
+
+#include "solver/dim_sums.h"
+
+#include <math.h>
+
+/* H e_I of particle a: evolved, or the cofactor of F; the identity with linear kinematics. */
+static inline struct tensor area_map(const struct solver_upwind *work, size_t a)
+{
+    return work->frozen ? identity() : load_tensor(work->cofactor + a * TENSOR);
+}
+
+static inline vec times(struct tensor T, const double *C)
+{
+    vec sum = T.column[0] * C[0];
+    for (int I = 1; I < DIM; I++) {
+        sum += T.column[I] * C[I];
+    }
+    return sum;
+}
+
+static inline vec distance_of(const struct solver_upwind *work, size_t a, size_t b)
+{
+    return load(work->X + b * LANES) - load(work->X + a * LANES);
+}
+
+/* As volume_flux of upwind_dim.c has it: A (n . H^Ave N)^2 / (2 z_p), A N standing for C_ab. */
+static void weights(const struct solver_pressure *of, size_t begin, size_t end)
+{
+    const struct solver_upwind *work = of->work;
+    double scale = of->dissipation / (2.0 * of->constants.zp);
+    for (size_t a = begin; a < end; a++) {
+        struct tensor H_a = area_map(work, a);
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            size_t b = work->neighbour[ab];
+            struct tensor H_b = area_map(work, b);
+            vec distance = distance_of(work, a, b);
+            vec along = work->frozen ? distance : load(work->x + b * LANES) - load(work->x + a * LANES);
+            vec area = {0};
+            for (int I = 0; I < DIM; I++) {
+                area += (H_a.column[I] + H_b.column[I]) * (0.5 * distance[I]);
+            }
+            double normal = dot(along, area);
+            of->weight[ab] =
+                scale * work->pair[ab * PAIR + DIM] * normal * normal / (dot(along, along) * dot(distance, distance));
+        }
+    }
+}
+
+static void diagonal(const struct solver_pressure *of, size_t begin, size_t end)
+{
+    const struct solver_upwind *work = of->work;
+    for (size_t a = begin; a < end; a++) {
+        struct tensor H = area_map(work, a);
+        vec own = times(H, work->row_sum + a * DIM);
+        double sum = dot(load(of->mobility + a * LANES) * own, own);
+        double flux = 0.0;
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            vec area = times(H, work->pair + ab * PAIR);
+            sum += dot(load(of->mobility + work->neighbour[ab] * LANES) * area, area);
+            flux += of->weight[ab];
+        }
+        /* mobility is 1 / (2 rho V), and D v has half the pair's area */
+        of->diagonal[a] = 0.5 * of->tau * sum + flux + of->compliance * work->V[a] / of->tau;
+    }
+}
+
+static void accelerate(const struct solver_pressure *of, const double *q, size_t begin, size_t end)
+{
+    const struct solver_upwind *work = of->work;
+    for (size_t a = begin; a < end; a++) {
+        vec force = q[a] * times(area_map(work, a), work->row_sum + a * DIM);
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            size_t b = work->neighbour[ab];
+            const double *D = work->transposed != NULL ? work->transposed + ab * DIM : work->pair + ab * PAIR;
+            force += q[b] * times(area_map(work, b), D);
+        }
+        store(of->acceleration + a * LANES, load(of->mobility + a * LANES) * force);
+    }
+}
+
+static void slopes(const struct solver_pressure *of, const double *q, size_t begin, size_t end)
+{
+    const struct solver_upwind *work = of->work;
+    for (size_t a = begin; a < end; a++) {
+        vec slope = {0};
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            double difference = q[work->neighbour[ab]] - q[a];
+            for (int I = 0; I < DIM; I++) {
+                slope[I] += difference * work->pair[ab * PAIR + (size_t)I];
+            }
+        }
+        store(of->slope + a * LANES, slope * (0.5 / work->V[a]));
+    }
+}
+
+static inline __attribute__((always_inline)) void balance_with(const struct solver_pressure *of, const double *v,
+                                                               double factor, const double *q, double *out,
+                                                               size_t begin, size_t end, bool reconstruct)
+{
+    const struct solver_upwind *work = of->work;
+    for (size_t a = begin; a < end; a++) {
+        struct tensor G = {{{0}}};
+        vec v_a = load(v + a * LANES);
+        vec moment = {0};
+        double flux = 0.0;
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            size_t b = work->neighbour[ab];
+            vec difference = load(v + b * LANES) - v_a;
+            for (int I = 0; I < DIM; I++) {
+                G.column[I] += difference * work->pair[ab * PAIR + (size_t)I];
+            }
+            double jump = q[b] - q[a];
+            if (reconstruct) {
+                vec distance = distance_of(work, a, b);
+                jump -= 0.5 * dot(load(of->slope + a * LANES) + load(of->slope + b * LANES), distance);
+                moment += (of->weight[ab] * jump) * distance;
+            }
+            flux += of->weight[ab] * jump;
+        }
+        out[a] = 0.5 * factor * contract(area_map(work, a), G) + flux;
+        if (reconstruct) {
+            store(of->moment + a * LANES, moment * (0.5 / work->V[a]));
+        }
+    }
+}
+
+static void balance(const struct solver_pressure *of, const double *v, double factor, const double *q, double *out,
+                    size_t begin, size_t end)
+{
+    if (of->work->reconstruct) {
+        balance_with(of, v, factor, q, out, begin, end, true);
+    } else {
+        balance_with(of, v, factor, q, out, begin, end, false);
+    }
+}
+
+/* The divergence of the moments: the adjoint of the gradient. */
+static void give_back(const struct solver_pressure *of, double *out, size_t begin, size_t end)
+{
+    const struct solver_upwind *work = of->work;
+    for (size_t a = begin; a < end; a++) {
+        vec sum = {0};
+        vec moment = load(of->moment + a * LANES);
+        for (int I = 0; I < DIM; I++) {
+            sum[I] = moment[I] * work->row_sum[a * DIM + (size_t)I];
+        }
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            const double *D = work->transposed != NULL ? work->transposed + ab * DIM : work->pair + ab * PAIR;
+            const double *moment_b = of->moment + (size_t)work->neighbour[ab] * LANES;
+            for (int I = 0; I < DIM; I++) {
+                sum[I] += moment_b[I] * D[I];
+            }
+        }
+        double divergence = 0.0;
+        for (int I = 0; I < DIM; I++) {
+            divergence += sum[I];
+        }
+        out[a] -= 0.5 * divergence;
+    }
+}
+
+static void spread(const struct solver_pressure *of, const double *q, double eta, double *out, size_t begin, size_t end)
+{
+    const struct solver_upwind *work = of->work;
+    for (size_t a = begin; a < end; a++) {
+        double sum = 0.0;
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            size_t b = work->neighbour[ab];
+            vec distance = distance_of(work, a, b);
+            sum += work->pair[ab * PAIR + DIM] * (q[b] - q[a]) / sqrt(dot(distance, distance));
+        }
+        out[a] += eta * sum;
+    }
+}
+
+static void strays(const struct solver_pressure *of, size_t begin, size_t end)
+{
+    const struct solver_upwind *work = of->work;
+    for (size_t a = begin; a < end; a++) {
+        struct tensor F = load_tensor(work->F + a * TENSOR);
+        double change = work->frozen ? trace(F) - DIM : determinant(F) - 1.0;
+        of->stray[a] = of->restore * work->V[a] * (change - of->compliance * of->p[a]);
+    }
+}
+
+const struct solver_pressure_loops DIM_NAME(solver_pressure) = {
+    .lanes = LANES,
+    .weights = weights,
+    .diagonal = diagonal,
+    .accelerate = accelerate,
+    .slopes = slopes,
+    .balance = balance,
+    .give_back = give_back,
+    .spread = spread,
+    .strays = strays,
+};
