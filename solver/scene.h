@@ -111,6 +111,8 @@ struct solver_ulsph_terms {
 /* The dissipation of 004_0c0448173ed5e9bd.txt, eq. 3.13. */
 struct solver_jst_terms {
     double kappa2, kappa4; /* of the harmonic and the biharmonic part; 0: none */
+    bool fades;            /* kappa4 falls to kappa4_plastic while the plastic strain grows to plastic_at (eq. 4.2) */
+    double kappa4_plastic, plastic_at;
 };
 
 /* A rigid plane wall without friction (wall.h); a normal of zeros: none. */

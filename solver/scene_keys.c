@@ -88,6 +88,10 @@ X("angular_momentum", WORD, AT(angular_momentum), 0, 0, 0, "free projected", "fr
   "as the scheme leaves it, or kept by the least change of the forces within the body (Appendix B)")                   \
 X("jst.kappa2", NUMBER, AT(jst.kappa2), 0, 10, 0, "", "0", "number in [0, 10]", "harmonic dissipation; 0: none")          \
 X("jst.kappa4", NUMBER, AT(jst.kappa4), 0, 10, 0, "", "0.015625", "number in [0, 10]", "biharmonic dissipation; 0: none")    \
+X("jst.kappa4_plastic", NUMBER, AT(jst.kappa4_plastic), 0, 10, 0, "", OPTIONAL, "number in [0, 10]",                     \
+  "what kappa4 changes to, linearly, while a particle's plastic strain grows to plastic_at; default: it is constant")  \
+X("jst.plastic_at", NUMBER, AT(jst.plastic_at), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0",                    \
+  "plastic strain from which on kappa4 is kappa4_plastic; default 0.5")                                                \
 X("ulsph.gradient", INDEX, AT(ulsph.gradient), 0, 0, 0, "corrected plain", "corrected", "one of corrected, plain",       \
   "gradients with the corrective matrix L, or of the kernel alone")                                                    \
 X("ulsph.cells", INDEX, AT(ulsph.cells), 0, 0, 0, "whole cut", "whole", "one of whole, cut",                             \
