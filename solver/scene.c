@@ -177,6 +177,7 @@ static int read_scene(lua_State *L)
     check_jst(L, scene);
     check_rigid_wall(L, scene);
     scene_read_bodies(L, scene);
+    scene_read_die(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)
         if (solver_scene_has(scene, (enum solver_formula)f))
             scene_refuse(L, "initial.from: the oracle gives the initial state, and the scene a formula for it besides");

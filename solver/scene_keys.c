@@ -13,7 +13,7 @@
 #define ABOVE_ZERO DBL_MIN
 #define FACE_KINDS                                                                                                     \
     "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f }, { kind = \"motion\", value = f, "   \
-    "free_after = t } or { kind = \"roller\", value = f, traction = f }"
+    "free_after = t, within = { lower, upper } } or { kind = \"roller\", value = f, traction = f }"
 #define SURFACE_KINDS                                                                                                  \
     "free, clamped, { kind = \"traction\", value = f } or { kind = \"motion\", value = f, free_after = t }"
 #define FORMULA "function(X, Y, Z, t) returning dim numbers"
@@ -120,6 +120,9 @@ X("rigid_wall.point", NUMBERS, AT(rigid_wall.point), 0, 0, 0, "", OPTIONAL, "lis
   "on a plane wall without friction, which the body does not pass")                                                    \
 X("rigid_wall.normal", NUMBERS, AT(rigid_wall.normal), 0, 0, 0, "", OPTIONAL, "list of dim numbers",                   \
   "of that wall, from it to the body")                                                                                 \
+X("die", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                          \
+  "list of up to 4 { path = { {x, y}, ... }, fillets = { r, ... } } [m]",                                              \
+  "rigid walls without friction in the plane, each a path with the body to its left; one fillet for each corner")      \
 X("integrator", WORD, AT(integrator), 0, 0, 0, "euler tvd-rk2 ssp-rk3 rk4", "rk4",                     \
   "one of euler, tvd-rk2, ssp-rk3, rk4",                                                                               \
   "time integrator")                                                                                                   \
