@@ -209,6 +209,14 @@ static bool near_piece(const struct solver_die_piece *piece, const double x[2], 
     return s >= -give && dot(d, piece->after) <= give;
 }
 
+/* Whether x is not beyond the far end of a straight piece, which begins or ends in the corner. */
+static bool is_before_end(const struct solver_die_piece *piece, const double x[2], bool begins)
+{
+    double d[2] = {x[0] - piece->from[0], x[1] - piece->from[1]};
+    double s = dot(d, piece->along);
+    return begins ? s <= piece->length : s >= 0.0;
+}
+
 size_t solver_die_look(const struct solver_die *die, size_t wall, const double x[2],
                        struct solver_die_near near[SOLVER_DIE_NEAR])
 {
@@ -223,11 +231,14 @@ size_t solver_die_look(const struct solver_die *die, size_t wall, const double x
     if (nearest == die->count) {
         return 0;
     }
-    size_t other = die->piece[nearest].folds                                     ? nearest + 1
-                   : nearest > die->first[wall] && die->piece[nearest - 1].folds ? nearest - 1
-                                                                                 : nearest;
-    if (other != nearest) {
-        near[1] = near_plane(&die->piece[other], x);
+    if (die->piece[nearest].folds && is_before_end(&die->piece[nearest + 1], x, true)) {
+        near[1] = near_plane(&die->piece[nearest + 1], x);
+        return 2;
     }
-    return other == nearest ? 1 : 2;
+    if (nearest > die->first[wall] && die->piece[nearest - 1].folds &&
+        is_before_end(&die->piece[nearest - 1], x, false)) {
+        near[1] = near_plane(&die->piece[nearest - 1], x);
+        return 2;
+    }
+    return 1;
 }
