@@ -86,7 +86,7 @@ static bool measure(struct work *work, struct solver_run *run, struct solver_err
     return solver_run_output(run, &output, error) &&
            verify_norms_state(&output, truth->kind, truth->oracle, level->error, error) &&
            verify_norms_probes(history, truth->kind, truth->oracle, work->scene->probe_scale, level->error, error) &&
-           verify_figures_measure(work->scene, truth, history, level, error) &&
+           verify_figures_measure(work->scene, truth, history, &output, level, error) &&
            verify_beside_measure(&work->beside, history, level->error, error) &&
            verify_indicators_measure(work->scene, &output, history, &level->facts, level->indicator, error);
 }
