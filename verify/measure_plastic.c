@@ -18,7 +18,7 @@ static double strain_at(const struct solver_output *output, const double place[3
     double sum = 0, weights = 0;
     for (size_t a = 0; a < cloud->count; a++) {
         double square = 0;
-        for (size_t i = 0; i < dim; i++) {
+        for (size_t i = 0; i < dim && i < 3; i++) {
             double d = cloud->X[a * dim + i] + output->u[a * dim + i] - place[i];
             square += d * d;
         }

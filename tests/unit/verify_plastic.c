@@ -12,8 +12,9 @@ static double X[2 * COUNT], u[2 * COUNT], V[COUNT], J[COUNT], strain[COUNT];
 static struct solver_output square(const struct solver_cloud *cloud, double (*of)(double x, double y))
 {
     for (int a = 0; a < COUNT; a++) {
+        int row = a / SIDE;
         X[2 * a] = (double)(a % SIDE) / (SIDE - 1);
-        X[2 * a + 1] = (double)(a / SIDE) / (SIDE - 1);
+        X[2 * a + 1] = (double)row / (SIDE - 1);
         u[2 * a] = X[2 * a];
         V[a] = 1.0;
         J[a] = 2.0;
