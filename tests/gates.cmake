@@ -254,6 +254,11 @@ assay_test(gate-plastic-wave-strain LABELS gate COMMAND ${CMAKE_COMMAND} -E env 
 # minutes.
 assay_test(gate-constrained-block LABELS gate COMMAND $<TARGET_FILE:assay> verify constrained-block --levels 10,20
   --out gates/constrained-block)
+# A study that has orders of figures alone is written as JSON that can be read.
+assay_test(json-of-figures-alone LABELS gate COMMAND ${Python3_EXECUTABLE} -m json.tool
+  gates/constrained-block/report.json gates/constrained-block/read.json)
+set_tests_properties(gate-constrained-block PROPERTIES FIXTURES_SETUP constrained-block)
+set_tests_properties(json-of-figures-alone PROPERTIES FIXTURES_REQUIRED constrained-block)
 assay_test(gate-constrained-block-fine LABELS gate slow COMMAND $<TARGET_FILE:assay> verify constrained-block
   --out gates/constrained-block-fine)
 assay_test(gate-ecae-first-turn LABELS gate COMMAND $<TARGET_FILE:assay> verify ecae --levels 3 --set t_end=10e-3

@@ -216,6 +216,18 @@ static void refusals(void)
     scene->figure_count = 1;
     scene->figure[0] = (struct solver_figure){.name = "noise", .measure = "stress ahead"};
     refused("figures.noise: the measure \"stress ahead\" needs an oracle that has fronts");
+    scene->figure[0] = (struct solver_figure){.name = "flow", .measure = "plastic work", .option_count = 1};
+    scene->figure[0].option[0] = (struct solver_option){.name = "expected", .number = {1}, .count = 1};
+    refused("figures.flow: the measure \"plastic work\" is of a material with a yield stress");
+    scene->hardening.yield = 1;
+    CU_ASSERT(verify_figures_check(scene, &truth, &error));
+    scene->figure[0].option[0].count = 2;
+    refused("figures.flow: expected: not as it must be; expected { value }, a number");
+    strcpy(scene->figure[0].measure, "plastic strain");
+    scene->figure[0].option_count = 3;
+    scene->figure[0].option[0].count = 1;
+    scene->figure[0].option[1] = (struct solver_option){.name = "from", .number = {1, 2}, .count = 2};
+    refused("figures.flow: from: not as it must be; expected { x, y }, as many numbers as dimensions [m]");
 }
 
 /* A probe that is carried along Y and has gone 5e-3 m aside on the way, by 3 and 4 along X and Z. */

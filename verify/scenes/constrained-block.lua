@@ -28,13 +28,23 @@ angular_momentum = "projected"
 
 probes = { { name = "floor", X = {1, 0} }, { name = "free corner", X = {1, 0.5} } }
 
+-- At n = 10, 20 and 40: 0.7023, 0.6822 and 0.6796 m, 85.23, 81.20 and 80.48 MJ; expected is what they extrapolate to. The
+-- largest strain, beside the driven half's edge, has no limit. The run goes through at every n, and so with {p,F}, and
+-- without dissipation; but particles at that edge are drawn past each other, cells between them turn over (2 of 200 at n =
+-- 20), and the free surface beside it is jagged from particle to particle.
 figures = {
-    ["height of the free corner"] = { measure = "distance", from = "floor", to = "free corner", expected = 0.684 }, -- m
-    ["plastic work"] = { measure = "plastic work", expected = 1e8 }, -- J
+    ["height of the free corner"] = { measure = "distance", from = "floor", to = "free corner", expected = 0.6792 }, -- m
+    ["plastic work"] = { measure = "plastic work", expected = 80.32e6 }, -- J
 }
 
 gates = {
-    { ["figure plastic work"] = 0.3, ["indicator clumping"] = 0.05 },
+    { when = { n = 20, scheme = "jst", evolved = "pFHJ" },
+      ["figure height of the free corner"] = 0.0055, ["rate figure height of the free corner"] = 2,
+      ["figure plastic work"] = 0.013, ["rate figure plastic work"] = 2,
+      ["indicator clumping"] = 0.28, ["indicator checkerboard"] = 0.16 },
+    { when = { n = 40, scheme = "jst", evolved = "pFHJ" },
+      ["figure height of the free corner"] = 0.002, ["figure plastic work"] = 0.004,
+      ["rate figure plastic work"] = 1.5, ["indicator clumping"] = 0.14, ["indicator checkerboard"] = 0.08 },
 }
 
 view = {
