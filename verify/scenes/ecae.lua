@@ -7,7 +7,8 @@ source = "004_0c0448173ed5e9bd.txt, 4.3"
 -- in 8 ms. At 1 m/s contact after 0.00142 s is a gap of the outer fillet's radius, on which the billet then stands, and
 -- 0.035 s is when the second corner is full if 24 mm are what lies between the two vertical channels. Channels are as
 -- wide as the billet, the third goes down. `scaling` multiplies the density, and so the step by its square root: the
--- kinetic energy stays below 0.7 % of the plastic work from the first turn on, and at the end is half a per cent of it.
+-- kinetic energy is 2 % of the plastic work at the first turn, 0.4 % at the end. It is not without effect: of 88 particles
+-- the plastic work is 9 % lower at 15 ms with scaling = 1, and 8 % lower at the end with 100.
 parameters = { W = 8e-3, L = 56e-3, middle = 24e-3, outer = 1.5e-3, inner = 1e-3, V = 1, scaling = 400 } -- m, m/s
 
 dim = 2 -- plane strain
@@ -36,8 +37,11 @@ if scheme == "jst" then jst = { kappa2 = 0, kappa4 = 1 / 64, kappa4_plastic = 1 
 stencil, support, integrator, cfl = "closed", 3.0, "tvd-rk2", 0.3
 history = 1000
 
--- What is expected: of 640 particles (n = 9), also at 10 ms, for a look that takes seconds.
-local strain, work = 2.25, 50000 -- FINAL
+-- At n = 3, 5, 7 and 9: plastic work 69.8, 56.8, 53.0, 51.7 kJ, largest strain 2.96, 2.35, 2.24, 2.42 (at 35 ms 51.5, 41.7,
+-- 38.4, 37.4 kJ; 2.09, 1.71, 1.86, 1.54), ram loss 5.6, 3.5, 2.0, 2.6 %. The work converges, the largest strain does not:
+-- it is that of single particles at the inner corners, where at n = 9 cells turn over (42 of 567 at the end, none of 343 at
+-- n = 7). What is expected is of n = 9, also at 10 ms, for a look that takes seconds.
+local strain, work = 2.417, 51707
 if t_end < 11e-3 then strain, work = 1.232, 9086 end
 
 -- Section 1 is in the middle of the middle channel, section 2 is 5 mm below the second corner; a corner of 90 degrees
