@@ -22,7 +22,9 @@ material = {
     model = "hencky", E = 69e9, nu = 0.33, rho = 2800 * scaling, -- Pa, -, kg/m^3
     law = "power", yield_stress = 159e6 * 0.02 ^ 0.27, hardening_strain = 0.02, hardening_exponent = 0.27, -- eq. 4.3
 }
-t_end = middle < 20e-3 and 27e-3 or 40e-3 -- s; --set middle=16e-3 is the short die of Fig. 16, whose unfilled second corner is not found
+t_end = middle < 20e-3 and 27e-3 or 40e-3 -- s
+
+-- --set middle=16e-3 is the short die of Fig. 16. That the upper part of its second corner stays unfilled is not found.
 
 local far, top = W + middle, outer + L + W -- where the third channel begins, and the first one ends
 die = {
@@ -33,7 +35,7 @@ initial = { velocity = function() return 0, -V end }
 faces = { Y1 = { kind = "roller", value = function() return 0, -V end } } -- the ram
 
 -- With a support of 2 spacings particles beside the inner corners change places, and of 88 those at the second one get
--- entangled (plastic strain 7.6).
+-- entangled (plastic strain 7.6, scaling = 900).
 scheme, evolved = "jst", "pFHJ"
 if scheme == "jst" then jst = { kappa2 = 0, kappa4 = 1 / 64, kappa4_plastic = 1 / 4096, plastic_at = 0.5 } end -- eq. 4.2
 stencil, support, integrator, cfl = "closed", 3.0, "tvd-rk2", 0.3
