@@ -73,6 +73,18 @@ static void add_face(const struct solver_scene *scene, unsigned face, unsigned d
     }
 }
 
+/* Whether the face acts on a particle that lies on it: not on one outside of the part that is moved. */
+static bool reaches(const struct solver_scene *scene, const struct solver_cloud *cloud, size_t a, unsigned face)
+{
+    double give = 1e-9 * cloud->spacing;
+    bool within = true;
+    for (size_t i = 0; i < (size_t)cloud->dim; i++) {
+        double X = cloud->X[a * (size_t)cloud->dim + i];
+        within = within && X >= scene->face_within[face][0][i] - give && X <= scene->face_within[face][1][i] + give;
+    }
+    return within;
+}
+
 /* The constraint of particle a; false if it has none. A moved face leads all axes, where it meets rollers and faces
  * that hold along theirs; where a clamped face meets it, that holds. */
 static bool constrain_by_faces(const struct solver_scene *scene, const struct solver_cloud *cloud, size_t a,
@@ -87,7 +99,8 @@ static bool constrain_by_faces(const struct solver_scene *scene, const struct so
     }
     for (int rollers = 0; rollers < 2; rollers++) {
         for (unsigned face = 0; face < SOLVER_FACES; face++) {
-            if ((bits >> face & 1U) != 0 && (scene->face[face] == SOLVER_ROLLER) == (rollers == 1)) {
+            if ((bits >> face & 1U) != 0 && (scene->face[face] == SOLVER_ROLLER) == (rollers == 1) &&
+                reaches(scene, cloud, a, face)) {
                 add_face(scene, face, dim, constraint);
                 clamped = clamped || scene->face[face] == SOLVER_CLAMPED;
             }

@@ -15,19 +15,24 @@
  * body keeps what its motion has of an affine one, and no more is promised; and the energy falls, by kappa4 c dx^3 sum
  * V |Lap f|^2. The price: at a boundary D4 has its natural conditions there, whatever f does, and is O(dx) in a layer
  * of one or two particles. D2 exchanges momentum in pairs too, and its energy falls pair by pair; it lets nothing
- * through the boundary, so a linear field is not free of it there. How kappa4 is to depend on plastic strain (eq. 4.2)
- * would be a factor of v_laplacian and J_laplacian, which keeps all of this. */
+ * through the boundary, so a linear field is not free of it there.
+ *
+ * Where kappa4 depends on plastic strain (eq. 4.2) each particle has its own: it is a factor of the Laplacian that the
+ * particle passes on, kappa4_b l_ba Lap f_b - kappa4_a l_ab Lap f_a. Pairs still exchange momentum, and the energy
+ * falls, by c dx^3 sum kappa4 V |Lap f|^2; with one value per pair, a mean of both, only the former would be sure. */
 #ifndef SOLVER_JST_H
 #define SOLVER_JST_H
 
 #include "solver/upwind.h"
 
 struct solver_jst {
-    double harmonic, biharmonic; /* kappa2 dx [m], kappa4 dx^3 [m^3] */
-    const double *laplacian;     /* [pairs][2] l_ab and l_ba [m^(dim - 2)] */
-    const double *exchange;      /* [pairs] k_ab [m^(dim - 2)]; NULL where kappa2 is 0 */
-    double *v_laplacian;         /* vector: rho c Lap v [kg/(m^3 s^2)] */
-    double *J_laplacian;         /* [count] c Lap J [1/(m s)]; NULL where J is not evolved */
+    double harmonic, biharmonic; /* kappa2 dx [m], kappa4 dx^3 [m^3]; dx^3 where kappa4 depends on plastic strain */
+    bool fades;                  /* it does: from `elastic` to `plastic`, reached at the strain `plastic_at` */
+    double elastic, plastic, plastic_at;
+    const double *laplacian; /* [pairs][2] l_ab and l_ba [m^(dim - 2)] */
+    const double *exchange;  /* [pairs] k_ab [m^(dim - 2)]; NULL where kappa2 is 0 */
+    double *v_laplacian;     /* vector: rho c Lap v [kg/(m^3 s^2)], times kappa4 where that depends on strain */
+    double *J_laplacian;     /* [count] c Lap J [1/(m s)], likewise; NULL where J is not evolved */
 };
 
 struct solver_jst_loops {

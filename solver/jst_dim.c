@@ -8,11 +8,21 @@ static inline bool alike(const struct solver_upwind *work, size_t a, size_t b)
     return work->stride == 0 || work->constants[a].kappa == work->constants[b].kappa;
 }
 
+/* kappa4 of particle a (eq. 4.2), where it depends on plastic strain; else it is a factor of all, and not of one. */
+static inline double fading(const struct solver_upwind *work, const struct solver_jst *jst, size_t a)
+{
+    if (!jst->fades) {
+        return 1.0;
+    }
+    double share = work->flown[a * work->material->flow->width] / jst->plastic_at;
+    return share < 1.0 ? jst->elastic + (jst->plastic - jst->elastic) * share : jst->plastic;
+}
+
 static void gather(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end)
 {
     for (size_t a = begin; a < end; a++) {
         const struct solver_material_constants *of_a = work->constants + a * work->stride;
-        double per_V = 1.0 / work->V[a];
+        double per_V = fading(work, jst, a) / work->V[a];
         vec v_a = load(work->v + a * LANES);
         vec of_v = {0};
         double of_J = 0.0;

@@ -129,6 +129,21 @@ static void check_flow(lua_State *L, const struct solver_scene *scene)
         scene_refuse(L, "material.hardening_strain, hardening_exponent: belong to material.law = \"power\"");
 }
 
+/* JST's dependence on plastic strain. */
+static void check_jst(lua_State *L, struct solver_scene *scene)
+{
+    struct solver_jst_terms *jst = &scene->jst;
+    scene_lua_push(L, "jst.kappa4_plastic");
+    jst->fades = !lua_isnil(L, -1);
+    lua_pop(L, 1);
+    if (jst->fades && !solver_scene_flows(scene))
+        scene_refuse(L, "jst.kappa4_plastic: the material does not flow; expected material.yield_stress > 0 with it");
+    if (!jst->fades && jst->plastic_at > 0)
+        scene_refuse(L, "jst.plastic_at: belongs to jst.kappa4_plastic, which is missing");
+    if (jst->fades && jst->plastic_at == 0)
+        jst->plastic_at = 0.5;
+}
+
 /* A plane wall has a point and a normal that is one. */
 static void check_rigid_wall(lua_State *L, const struct solver_scene *scene)
 {
@@ -177,9 +192,11 @@ static int read_scene(lua_State *L)
                         "incompressible.solver = \"poisson\", or nu < 0.5, say 0.4999");
     check_incompressible(L, scene);
     check_flow(L, scene);
+    check_jst(L, scene);
     check_rigid_wall(L, scene);
     scene_read_symmetry(L, scene);
     scene_read_bodies(L, scene);
+    scene_read_die(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)
         if (solver_scene_has(scene, (enum solver_formula)f))
             scene_refuse(L, "initial.from: the oracle gives the initial state, and the scene a formula for it besides");

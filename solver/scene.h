@@ -29,7 +29,9 @@ enum {
     SOLVER_ROWS = 16,
     SOLVER_VARIANTS = 8,
     SOLVER_FACES = 7,
-    SOLVER_BODIES = 16
+    SOLVER_BODIES = 16,
+    SOLVER_DIE_WALLS = 4,
+    SOLVER_DIE_POINTS = 16
 };
 
 /* Formulas a scene may hold. All are called as f(X, Y, Z, t) in metres and seconds (missing dimensions are 0) and
@@ -113,6 +115,8 @@ struct solver_ulsph_terms {
 /* The dissipation of 004_0c0448173ed5e9bd.txt, eq. 3.13. */
 struct solver_jst_terms {
     double kappa2, kappa4; /* of the harmonic and the biharmonic part; 0: none */
+    bool fades;            /* kappa4 falls to kappa4_plastic while the plastic strain grows to plastic_at (eq. 4.2) */
+    double kappa4_plastic, plastic_at;
 };
 
 /* How the pressure of an incompressible or nearly incompressible body is found (pressure.h). */
@@ -131,6 +135,13 @@ struct solver_incompressible {
 /* A rigid plane wall without friction (wall.h); a normal of zeros: none. */
 struct solver_rigid_wall {
     double point[3], normal[3]; /* [m]; towards the body, of any length */
+};
+
+/* A rigid wall without friction in the plane: a path with rounded corners, the body to its left (die.h). */
+struct solver_die_wall {
+    size_t count;
+    double point[SOLVER_DIE_POINTS][2]; /* [count] [m] */
+    double fillet[SOLVER_DIE_POINTS];   /* [count] radii [m]; 0 at both ends */
 };
 
 struct solver_named {
@@ -252,6 +263,8 @@ struct solver_scene {
     double contact_distance; /* [m]; 0: the spacing */
     struct solver_incompressible incompressible;
     struct solver_rigid_wall rigid_wall;
+    size_t die_count; /* 0: none */
+    struct solver_die_wall die[SOLVER_DIE_WALLS];
     char integrator[SOLVER_NAME];
     double cfl;
     double t_end;        /* [s] */
@@ -266,6 +279,8 @@ struct solver_scene {
     char initial_from[SOLVER_NAME];           /* "formulas", or "oracle": see solver_scene_start_from */
     char loads_from[SOLVER_NAME];             /* likewise for what drives the body: see solver_scene_drive_from */
     double face_until[SOLVER_FACES];          /* [s] a moved face is free after this time; infinite otherwise */
+    double face_within[SOLVER_FACES][2]
+                      [3]; /* [m] corners of the box around what moves of a moved face; infinite: all */
     struct solver_probe probe[SOLVER_PROBES];
     size_t probe_count;
     double probe_scale; /* [m] what the error "probes_nrmse" is relative to; 0 if not given */

@@ -17,7 +17,7 @@ static bool is_moved(int kind)
 /* The table on top of the stack has no other keys than these. */
 static void refuse_unknown(lua_State *L, const char *key)
 {
-    static const char *const known[] = {"kind", "value", "traction", "free_after"};
+    static const char *const known[] = {"kind", "value", "traction", "free_after", "within"};
     int given = lua_gettop(L);
     for (lua_pushnil(L); lua_next(L, given); lua_pop(L, 1)) {
         const char *name = lua_type(L, -2) == LUA_TSTRING ? lua_tostring(L, -2) : "1";
@@ -25,7 +25,7 @@ static void refuse_unknown(lua_State *L, const char *key)
         for (size_t i = 0; i < sizeof known / sizeof *known; i++)
             found = found || strcmp(name, known[i]) == 0;
         if (!found)
-            scene_refuse(L, "%s.%.60s: unknown key; expected kind, value, traction and free_after", key, name);
+            scene_refuse(L, "%s.%.60s: unknown key; expected kind, value, traction, free_after and within", key, name);
     }
 }
 
@@ -76,6 +76,32 @@ static double read_end(lua_State *L, const char *key, int given, int kind)
     return until;
 }
 
+/* The part of a moved face that is moved, the rest being free. */
+static void read_part(lua_State *L, struct solver_scene *scene, const char *key, int given, int face)
+{
+    double(*within)[3] = scene->face_within[face];
+    char path[2 * SOLVER_NAME];
+    snprintf(path, sizeof path, "%s.within", key);
+    if (!lua_istable(L, given) || lua_getfield(L, given, "within") == LUA_TNIL)
+        return;
+    if (!is_moved((int)scene->face[face]) || solver_scene_has(scene, (enum solver_formula)(SOLVER_SHEAR_X0 + face)))
+        scene_refuse(L, "%s: only 'motion' and 'roller' without traction take it", path);
+    if (scene->lattice == SOLVER_CENTRES)
+        scene_refuse(L, "%s: with lattice = \"centres\" a wall moves the face, all of it", path);
+    if (!lua_istable(L, -1) || lua_rawlen(L, -1) != 2)
+        scene_refuse_value(L, path, "a list of two corners, { ... }, { ... } [m]", -1);
+    for (int end = 0; end < 2; end++) {
+        lua_rawgeti(L, -1, end + 1);
+        scene_read_numbers(L, path, -1, within[end], (size_t)scene->dim);
+        lua_pop(L, 1);
+    }
+    for (int i = 0; i < scene->dim; i++)
+        if (within[0][i] > within[1][i])
+            scene_refuse(L, "%s: expected a lower and an upper corner, got %g and %g along %c", path, within[0][i],
+                         within[1][i], "XYZ"[i]);
+    lua_pop(L, 1);
+}
+
 /* The kind of the face whose condition stands at index `given`: a word, or a table with the word. */
 static int read_kind(lua_State *L, const struct solver_scene_key *key, int given)
 {
@@ -106,6 +132,7 @@ static void read_face(lua_State *L, struct solver_scene *scene, const struct sol
     read_formula(L, key->key, given, "value", (enum solver_formula)(SOLVER_FACE_X0 + face), kind, valued, true);
     read_formula(L, key->key, given, "traction", (enum solver_formula)(SOLVER_SHEAR_X0 + face), kind,
                  kind == SOLVER_ROLLER, false);
+    read_part(L, scene, key->key, given, face);
 }
 
 void scene_read_faces(lua_State *L, struct solver_scene *scene)
@@ -116,6 +143,8 @@ void scene_read_faces(lua_State *L, struct solver_scene *scene)
         if (rule->kind != SCENE_FACE)
             continue;
         scene->face_until[rule->offset] = INFINITY;
+        for (int i = 0; i < 6; i++)
+            scene->face_within[rule->offset][i / 3][i % 3] = i < 3 ? -INFINITY : INFINITY;
         scene_lua_push(L, key->key);
         if (!lua_isnil(L, -1))
             read_face(L, scene, key, (int)rule->offset);

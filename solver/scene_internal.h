@@ -138,6 +138,8 @@ void scene_read_symmetry(lua_State *L, struct solver_scene *scene);
 void scene_hold_symmetry(lua_State *L, struct solver_scene *scene);
 /* Domain or bodies; the plain keys are there. */
 void scene_read_bodies(lua_State *L, struct solver_scene *scene);
+/* Walls by paths: scene_die.c. */
+void scene_read_die(lua_State *L, struct solver_scene *scene);
 extern const char scene_face_kinds[]; /* words */
 void scene_read_faces(lua_State *L, struct solver_scene *scene);
 /* Refuses conditions that the scene's lattice does not allow. */

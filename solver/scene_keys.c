@@ -13,7 +13,7 @@
 #define ABOVE_ZERO DBL_MIN
 #define FACE_KINDS                                                                                                     \
     "free, symmetric, skew-symmetric, clamped, { kind = \"traction\", value = f }, { kind = \"motion\", value = f, "   \
-    "free_after = t } or { kind = \"roller\", value = f, traction = f }"
+    "free_after = t, within = { lower, upper } } or { kind = \"roller\", value = f, traction = f }"
 #define SURFACE_KINDS                                                                                                  \
     "free, clamped, { kind = \"traction\", value = f } or { kind = \"motion\", value = f, free_after = t }"
 #define FORMULA "function(X, Y, Z, t) returning dim numbers"
@@ -113,6 +113,10 @@ X("incompressible.alpha", NUMBER, AT(incompressible.alpha), 0, 1, 0, "", "0", "n
   "Laplacian that speeds the pseudo-time up; it smooths the pressure, and changes volumes; 0: none")                   \
 X("jst.kappa2", NUMBER, AT(jst.kappa2), 0, 10, 0, "", "0", "number in [0, 10]", "harmonic dissipation; 0: none")          \
 X("jst.kappa4", NUMBER, AT(jst.kappa4), 0, 10, 0, "", "0.015625", "number in [0, 10]", "biharmonic dissipation; 0: none")    \
+X("jst.kappa4_plastic", NUMBER, AT(jst.kappa4_plastic), 0, 10, 0, "", OPTIONAL, "number in [0, 10]",                     \
+  "what kappa4 changes to, linearly, while a particle's plastic strain grows to plastic_at; default: it is constant")  \
+X("jst.plastic_at", NUMBER, AT(jst.plastic_at), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0",                    \
+  "plastic strain from which on kappa4 is kappa4_plastic; default 0.5")                                                \
 X("ulsph.gradient", INDEX, AT(ulsph.gradient), 0, 0, 0, "corrected plain", "corrected", "one of corrected, plain",       \
   "gradients with the corrective matrix L, or of the kernel alone")                                                    \
 X("ulsph.cells", INDEX, AT(ulsph.cells), 0, 0, 0, "whole cut", "whole", "one of whole, cut",                             \
@@ -141,6 +145,9 @@ X("rigid_wall.point", NUMBERS, AT(rigid_wall.point), 0, 0, 0, "", OPTIONAL, "lis
   "on a plane wall without friction, which the body does not pass")                                                    \
 X("rigid_wall.normal", NUMBERS, AT(rigid_wall.normal), 0, 0, 0, "", OPTIONAL, "list of dim numbers",                   \
   "of that wall, from it to the body")                                                                                 \
+X("die", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                          \
+  "list of up to 4 { path = { {x, y}, ... }, fillets = { r, ... } } [m]",                                              \
+  "rigid walls without friction in the plane, each a path with the body to its left; one fillet for each corner")      \
 X("integrator", WORD, AT(integrator), 0, 0, 0, "euler tvd-rk2 ssp-rk3 rk4", "rk4",                     \
   "one of euler, tvd-rk2, ssp-rk3, rk4",                                                                               \
   "time integrator")                                                                                                   \

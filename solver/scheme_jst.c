@@ -134,7 +134,11 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
         return false;
     }
     system->jst.harmonic = scene->jst.kappa2 * dx;
-    system->jst.biharmonic = scene->jst.kappa4 * dx * dx * dx;
+    system->jst.fades = scene->jst.fades;
+    system->jst.elastic = scene->jst.kappa4;
+    system->jst.plastic = scene->jst.kappa4_plastic;
+    system->jst.plastic_at = scene->jst.plastic_at;
+    system->jst.biharmonic = (scene->jst.fades ? 1.0 : scene->jst.kappa4) * dx * dx * dx;
     system->jst.laplacian = system->laplacian;
     system->jst.exchange = system->exchange;
     *out = system;
@@ -163,6 +167,8 @@ static const struct solver_scheme_choice choices[] = {
     SOLVER_UPWIND_EVOLVED,
     {"jst.kappa2", "harmonic dissipation; 0: none"},
     {"jst.kappa4", "biharmonic dissipation; 0: none"},
+    {"jst.kappa4_plastic", "what kappa4 falls to while the plastic strain grows"},
+    {"jst.plastic_at", "plastic strain at which it has fallen"},
     {NULL, NULL},
 };
 

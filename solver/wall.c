@@ -7,7 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How far x lies on the body's side of the wall. */
+enum { PASSES = 20 }; /* over the bounds of a site, until all hold; one is enough at right angles */
+
+/* What must be free of a normal's square where faces lead a particle along an axis: a wall across that axis would throw
+ * it out sideways, and is left to the face. */
+static const double LEAST_FREE = 0.01;
+
+/* How far x lies on the body's side of the plane. */
 static double distance(const struct solver_wall *wall, const double *x)
 {
     double sum = 0.0;
@@ -17,16 +23,7 @@ static double distance(const struct solver_wall *wall, const double *x)
     return sum;
 }
 
-static double along_normal(const struct solver_wall *wall, const double *v)
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < wall->dim; i++) {
-        sum += v[i] * wall->normal[i];
-    }
-    return sum;
-}
-
-static bool has_wall(const struct solver_scene *scene)
+static bool has_plane(const struct solver_scene *scene)
 {
     const double *n = scene->rigid_wall.normal;
     return n[0] != 0.0 || n[1] != 0.0 || n[2] != 0.0;
@@ -42,7 +39,8 @@ static bool check(const struct solver_body *body, struct solver_error *error)
                       : scene->lattice != SOLVER_NODES
                           ? "it meets particles that lie on the surface; expected lattice = \"nodes\""
                           : NULL;
-    return why == NULL || solver_fail(error, SOLVER_BAD_INPUT, "%s: rigid_wall: %s", scene->path, why);
+    return why == NULL || solver_fail(error, SOLVER_BAD_INPUT, "%s: %s: %s", scene->path,
+                                      has_plane(scene) ? "rigid_wall" : "die", why);
 }
 
 static bool is_on_surface(const struct solver_geometry *geometry, size_t point)
@@ -51,52 +49,72 @@ static bool is_on_surface(const struct solver_geometry *geometry, size_t point)
     return at->area[0] != 0.0 || at->area[1] != 0.0 || at->area[2] != 0.0;
 }
 
-/* Along how many axes that the normal has a part of a particle moves as faces say, and whether that ever ends. */
-static int held_axes(const struct solver_wall *wall, const struct solver_constraint *constraint, bool *ends)
+/* Which axes of a particle faces lead, and whether that ever ends. */
+static void note_led(const struct solver_wall *wall, const struct solver_constraint *constraint, bool led[3],
+                     bool *ends)
 {
-    int held = 0;
     for (size_t i = 0; i < wall->dim; i++) {
         const struct solver_held *axis = &constraint->axis[i];
-        bool counts = axis->held && wall->normal[i] != 0.0;
-        held += counts ? 1 : 0;
+        bool counts = axis->held && (wall->die.count > 0 || wall->normal[i] != 0.0);
+        led[i] = counts;
         *ends = *ends || (counts && isfinite(axis->until));
     }
-    return held;
+}
+
+/* Of the axes that the plane's normal has a part of, how many are led: 0, 1 for some, 2 for all. */
+static int part_led(const struct solver_wall *wall, const bool led[3])
+{
+    bool some = false;
+    bool all = true;
+    for (size_t i = 0; i < wall->dim; i++) {
+        bool counts = wall->normal[i] != 0.0;
+        some = some || (counts && led[i]);
+        all = all && (!counts || led[i]);
+    }
+    return !wall->plane || !some ? 0 : all ? 2 : 1;
 }
 
 /* Sites of the particles that are `marked`, but for those whose velocity along the normal is not free. */
 static bool take_sites(struct solver_wall *wall, const struct solver_body *body, const struct solver_geometry *geometry,
                        const struct solver_faces *faces, const bool *marked, struct solver_error *error)
 {
-    int parts = 0;
+    const char *key = wall->plane ? "rigid_wall" : "die";
     size_t c = 0; /* constraints are in the order of particles */
-    for (size_t i = 0; i < wall->dim; i++) {
-        parts += wall->normal[i] != 0.0 ? 1 : 0;
-    }
     for (size_t a = 0; a < body->cloud->count; a++) {
+        struct solver_wall_site site = {.particle = (uint32_t)a};
         bool ends = false;
-        bool constrained = c < faces->constraint_count && faces->constraint[c].particle == a;
-        int held = constrained ? held_axes(wall, &faces->constraint[c], &ends) : 0;
-        c += constrained ? 1 : 0;
+        if (c < faces->constraint_count && faces->constraint[c].particle == a) {
+            note_led(wall, &faces->constraint[c++], site.led, &ends);
+        }
+        int led = part_led(wall, site.led);
         if (!marked[a]) {
             continue;
         }
-        if (ends || (held > 0 && held < parts)) {
+        if (ends || led == 1) {
             return solver_fail(error, SOLVER_BAD_INPUT,
-                               "%s: rigid_wall: faces hold or move a particle of the surface along the wall's normal "
-                               "%s; expected all of it, always, or nothing",
-                               body->scene->path, ends ? "for a time" : "in part");
+                               "%s: %s: faces hold or move a particle of the surface along the wall's normal %s; "
+                               "expected all of it, always, or nothing",
+                               body->scene->path, key, ends ? "for a time" : "in part");
         }
-        if (held == 0) {
-            double rho = body->constants[a * body->stride].rho;
-            wall->site[wall->count++] =
-                (struct solver_wall_site){.particle = (uint32_t)a, .mass = geometry->V[a] * rho};
+        site.mass = geometry->V[a] * body->constants[a * body->stride].rho;
+        if (led == 0 || wall->die.count > 0) {
+            wall->site[wall->count++] = site;
         }
     }
     return wall->count > 0 || solver_fail(error, SOLVER_BAD_INPUT,
-                                          "%s: rigid_wall: faces hold or move all of the surface, nothing of which can "
-                                          "meet it",
-                                          body->scene->path);
+                                          "%s: %s: faces hold or move all of the surface, nothing of which can meet it",
+                                          body->scene->path, key);
+}
+
+static void set_plane(struct solver_wall *wall, const struct solver_scene *scene)
+{
+    const double *n = scene->rigid_wall.normal;
+    double length = hypot(hypot(n[0], n[1]), n[2]);
+    wall->plane = true;
+    for (size_t i = 0; i < wall->dim; i++) {
+        wall->normal[i] = n[i] / length;
+        wall->point[i] = scene->rigid_wall.point[i];
+    }
 }
 
 bool solver_wall_create(const struct solver_body *body, const struct solver_geometry *geometry,
@@ -105,17 +123,14 @@ bool solver_wall_create(const struct solver_body *body, const struct solver_geom
     const struct solver_scene *scene = body->scene;
     size_t count = body->cloud->count;
     bool *marked = NULL;
-    *wall = (struct solver_wall){.dim = (size_t)body->cloud->dim};
-    if (!has_wall(scene)) {
+    *wall = (struct solver_wall){.dim = (size_t)body->cloud->dim, .reach = body->cloud->spacing};
+    if (!has_plane(scene) && scene->die_count == 0) {
         return true;
     }
-    const double *n = scene->rigid_wall.normal;
-    double length = hypot(hypot(n[0], n[1]), n[2]);
-    for (size_t i = 0; i < wall->dim; i++) {
-        wall->normal[i] = n[i] / length;
-        wall->point[i] = scene->rigid_wall.point[i];
+    if (has_plane(scene)) {
+        set_plane(wall, scene);
     }
-    if (!check(body, error) ||
+    if (!check(body, error) || !solver_die_create(scene, &wall->die, error) ||
         !solver_alloc((void **)&wall->site, count, sizeof *wall->site, "places that may meet the wall", error) ||
         !solver_alloc((void **)&marked, count, sizeof *marked, "marks of the surface", error)) {
         return false;
@@ -123,29 +138,82 @@ bool solver_wall_create(const struct solver_body *body, const struct solver_geom
     for (size_t i = 0; i < geometry->face_point_count; i++) {
         marked[geometry->face_point[i].particle] |= is_on_surface(geometry, i);
     }
+    if (wall->die.count > 0) {
+        memset(marked, 1, count * sizeof *marked);
+    }
     bool good = take_sites(wall, body, geometry, faces, marked, error);
     free(marked);
     return good;
+}
+
+/* How far x lies behind the nearest place of a wall by a path; 0: before it, or beyond its ends. */
+static double behind(const struct solver_wall *wall, size_t w, const double *x)
+{
+    struct solver_die_near near[SOLVER_DIE_NEAR];
+    size_t count = solver_die_look(&wall->die, w, x, near);
+    double least = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        least = fmin(least, near[i].gap);
+    }
+    return -least;
 }
 
 bool solver_wall_check(const struct solver_wall *wall, const struct solver_body *body, const struct solver_state *state,
                        struct solver_error *error)
 {
     double least = 0.0;
+    double deepest = 0.0;
+    size_t deepest_wall = 0;
     for (size_t a = 0; wall->count > 0 && a < state->count; a++) {
-        least = fmin(least, distance(wall, state->x + a * state->lanes));
+        const double *x = state->x + a * state->lanes;
+        least = wall->plane ? fmin(least, distance(wall, x)) : least;
+        for (size_t w = 0; w < wall->die.wall_count; w++) {
+            double way = behind(wall, w, x);
+            deepest_wall = way > deepest ? w : deepest_wall;
+            deepest = fmax(deepest, way);
+        }
     }
-    return least >= -1e-9 * body->cloud->spacing ||
-           solver_fail(error, SOLVER_BAD_INPUT,
-                       "%s: rigid_wall: the body reaches %g m behind the wall; expected all of it on the side that the "
-                       "normal points to",
-                       body->scene->path, -least);
+    double give = 1e-9 * body->cloud->spacing;
+    if (least < -give) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: rigid_wall: the body reaches %g m behind the wall; expected all of it on the side that "
+                           "the normal points to",
+                           body->scene->path, -least);
+    }
+    return deepest <= give || solver_fail(error, SOLVER_BAD_INPUT,
+                                          "%s: die[%zu]: the body reaches %g m behind the wall; expected all of it to "
+                                          "the left of the path",
+                                          body->scene->path, deepest_wall + 1, deepest);
 }
 
 void solver_wall_free(struct solver_wall *wall)
 {
     free(wall->site);
+    solver_die_free(&wall->die);
     *wall = (struct solver_wall){.site = NULL};
+}
+
+/* Brings the velocity of a site to one bound; false if it keeps it. */
+static bool enforce(const struct solver_wall *wall, const struct solver_wall_site *site,
+                    const struct solver_wall_bound *bound, double *v, double share, double impulse[3])
+{
+    double excess = bound->least;
+    double free_part = 0.0; /* of the normal's square */
+    for (size_t i = 0; i < wall->dim; i++) {
+        excess -= v[i] * bound->normal[i];
+        free_part += site->led[i] ? 0.0 : bound->normal[i] * bound->normal[i];
+    }
+    if (!(excess > 0.0) || free_part < LEAST_FREE) {
+        return false;
+    }
+    for (size_t i = 0; i < wall->dim; i++) {
+        if (!site->led[i]) {
+            double change = excess * bound->normal[i] / free_part;
+            v[i] += change;
+            impulse[i] -= share * site->mass * change;
+        }
+    }
+    return true;
 }
 
 /* Brings all sites to their bounds; what is taken goes into `impulse`, `share` times. In order, whatever the threads.
@@ -155,11 +223,38 @@ static void stop(const struct solver_wall *wall, const struct solver_state *stat
     for (size_t s = 0; s < wall->count; s++) {
         const struct solver_wall_site *site = &wall->site[s];
         double *v = state->v + site->particle * state->lanes;
-        double excess = site->bound - along_normal(wall, v);
-        if (excess > 0.0) {
-            for (size_t i = 0; i < wall->dim; i++) {
-                v[i] += excess * wall->normal[i];
-                impulse[i] -= share * site->mass * excess * wall->normal[i];
+        bool changed = site->bounds > 0;
+        for (int pass = 0; changed && pass < PASSES; pass++) {
+            changed = false;
+            for (size_t i = 0; i < site->bounds; i++) {
+                changed = enforce(wall, site, &site->bound[i], v, share, impulse) || changed;
+            }
+            changed = changed && site->bounds > 1;
+        }
+    }
+}
+
+static void add_bound(struct solver_wall_site *site, const double *normal, size_t dim, double least)
+{
+    if (site->bounds < SOLVER_WALL_BOUNDS) {
+        struct solver_wall_bound *bound = &site->bound[site->bounds++];
+        *bound = (struct solver_wall_bound){.least = least};
+        memcpy(bound->normal, normal, dim * sizeof *normal);
+    }
+}
+
+static void find_bounds(const struct solver_wall *wall, struct solver_wall_site *site, const double *x, double dt)
+{
+    site->bounds = 0;
+    if (wall->plane) {
+        add_bound(site, wall->normal, wall->dim, -fmax(distance(wall, x), 0.0) / dt);
+    }
+    for (size_t w = 0; w < wall->die.wall_count; w++) {
+        struct solver_die_near near[SOLVER_DIE_NEAR];
+        size_t count = solver_die_look(&wall->die, w, x, near);
+        for (size_t i = 0; i < count; i++) {
+            if (fabs(near[i].gap) < wall->reach) {
+                add_bound(site, near[i].normal, wall->dim, -near[i].gap / dt);
             }
         }
     }
@@ -169,7 +264,7 @@ void solver_wall_begin(struct solver_wall *wall, const struct solver_state *stat
 {
     for (size_t s = 0; s < wall->count; s++) {
         struct solver_wall_site *site = &wall->site[s];
-        site->bound = -fmax(distance(wall, state->x + site->particle * state->lanes), 0.0) / dt;
+        find_bounds(wall, site, state->x + site->particle * state->lanes, dt);
     }
     stop(wall, state, 1.0, wall->impulse);
     memset(wall->stepping, 0, sizeof wall->stepping);

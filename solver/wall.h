@@ -1,5 +1,6 @@
-/* A rigid plane wall that stands still, without friction: particles on the surface of a body do not pass it, and are
- * not held by it.
+/* Rigid walls that stand still, without friction: a plane, and in the plane walls by paths (die.h). Particles do not
+ * pass them, and are not held by them. A plane is met by what lies on the surface of a body; a path, which may be
+ * sharper than the spacing, by all of it.
  *
  * 004_0c0448173ed5e9bd.txt reflects the momentum of a particle that has passed the wall and puts it back onto it. Here
  * none passes: a surface particle at the distance g from the wall when a step of size dt begins must not approach it
@@ -9,36 +10,56 @@
  * normal, as an inelastic impact of one particle would; the rebound is the body's. A particle that its body pulls away
  * is let go.
  *
+ * Of a curved wall g and the normal are those of the nearest place when the step begins. Around a round corner that
+ * keeps particles from passing, too; along a hollow one a particle that slides by d ends d^2/2r behind the wall, some
+ * 1e-12 of its spacing in a step, and the next step takes it back: g/dt then counts with its sign. In a corner, and
+ * between two walls, each bound is enforced in turn until all hold. Where a face leads a particle along an axis, the
+ * wall moves it along the other.
+ *
  * The impulse [N s] on the wall is exact: what a stage takes enters the velocity at the end of the step with the
  * product of the weights `keep` of the later stages (integrator.h), and is counted so. Impulse and momentum of the body
  * add up to what they were to round-off. */
 #ifndef SOLVER_WALL_H
 #define SOLVER_WALL_H
 
+#include "solver/die.h"
 #include "solver/faces.h"
 #include "solver/integrator.h"
 #include "solver/scheme.h"
 #include "solver/state.h"
 
-/* A surface particle that may meet the wall. */
+/* A bound in this step: the velocity along the normal is at least that. */
+struct solver_wall_bound {
+    double normal[3]; /* unit, towards the body */
+    double least;     /* [m/s] */
+};
+
+enum { SOLVER_WALL_BOUNDS = 3 };
+
+/* A particle that may meet a wall. */
 struct solver_wall_site {
     uint32_t particle;
-    double mass;  /* [kg]; per unit thickness in 2D, per unit area in 1D */
-    double bound; /* [m/s] least velocity along the normal in this step, at most 0 */
+    double mass; /* [kg]; per unit thickness in 2D, per unit area in 1D */
+    bool led[3]; /* faces hold or move it along this axis */
+    size_t bounds;
+    struct solver_wall_bound bound[SOLVER_WALL_BOUNDS]; /* [bounds] */
 };
 
 struct solver_wall {
     size_t dim;
     size_t count; /* of sites; 0: the scene has no wall */
     struct solver_wall_site *site;
+    bool plane;                 /* there is one; */
     double point[3], normal[3]; /* [m]; unit, towards the body */
-    double impulse[3];          /* [N s] handed to the wall since the start */
+    struct solver_die die;      /* walls by paths; none of it where the scene has none */
+    double reach;               /* [m] from which on they count */
+    double impulse[3];          /* [N s] handed to walls since the start */
     double stepping[3];         /* by the stages of this step, which may yet fail */
 };
 
-/* The wall of the body's scene; `geometry` is that of its scheme, `faces` are there. Refuses (SOLVER_BAD_INPUT) schemes
- * in which x' is not v, and faces that hold a particle along a part of the normal. One that is held or moved along all
- * of it goes where it is led. */
+/* The walls of the body's scene; `geometry` is that of its scheme, `faces` are there. Refuses (SOLVER_BAD_INPUT)
+ * schemes in which x' is not v, faces that lead for a time, and faces that hold a particle along a part of a plane's
+ * normal. One that is held or moved along all of it goes where it is led. */
 bool solver_wall_create(const struct solver_body *body, const struct solver_geometry *geometry,
                         const struct solver_faces *faces, struct solver_wall *wall, struct solver_error *error);
 void solver_wall_free(struct solver_wall *wall);

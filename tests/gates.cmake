@@ -313,6 +313,25 @@ assay_test(gate-plastic-wave-sees-hardening LABELS gate mustfail COMMAND ${fails
 assay_test(gate-plastic-wave-strain LABELS gate COMMAND ${CMAKE_COMMAND} -E env sh -ec
   "\"$0\" run plastic-wave --out gates/plastic-wave-strain && \"$0\" judge gates/plastic-wave-strain/plastic-wave.vtkhdf --oracle plastic-wave --param L=2 --param v0=6e-3 --param material.E=117e9 --param material.nu=0.35 --param material.rho=8930 --param material.yield_stress=0.4e5 --param material.hardening=0.1e9 --norm l1 --gate plastic_strain_l1=1.25e-2"
   $<TARGET_FILE:assay>)
+# The constrained block, and the billet until it is round the first corner; to the end, and in the short die, it takes
+# minutes.
+assay_test(gate-constrained-block LABELS gate COMMAND $<TARGET_FILE:assay> verify constrained-block --levels 10,20
+  --out gates/constrained-block)
+# A study that has orders of figures alone is written as JSON that can be read.
+assay_test(json-of-figures-alone LABELS gate COMMAND ${Python3_EXECUTABLE} -m json.tool
+  gates/constrained-block/report.json gates/constrained-block/read.json)
+set_tests_properties(gate-constrained-block PROPERTIES FIXTURES_SETUP constrained-block)
+set_tests_properties(json-of-figures-alone PROPERTIES FIXTURES_REQUIRED constrained-block)
+assay_test(gate-constrained-block-fine LABELS gate slow COMMAND $<TARGET_FILE:assay> verify constrained-block
+  --out gates/constrained-block-fine)
+assay_test(gate-ecae-first-turn LABELS gate COMMAND $<TARGET_FILE:assay> verify ecae --levels 3 --set t_end=10e-3
+  --out gates/ecae-first-turn)
+assay_test(gate-ecae LABELS gate slow COMMAND $<TARGET_FILE:assay> verify ecae --out gates/ecae)
+assay_test(gate-ecae-short LABELS gate slow COMMAND $<TARGET_FILE:assay> verify ecae --levels 5 --set middle=16e-3
+  --out gates/ecae-short)
+assay_test(gate-ecae-sees-strength LABELS gate mustfail COMMAND ${fails} "FAIL: a gate does not hold"
+  $<TARGET_FILE:assay> verify ecae --levels 3 --set t_end=10e-3 --set material.yield_stress=60e6
+  --out gates/ecae-strength)
 # The Taylor bar at n = 2: radius 6.21 mm, 0.111 short of 7 mm, energy lost by the scheme 0.092. The study from n = 2 to 3
 # takes half a minute.
 assay_test(gate-taylor-bar LABELS gate COMMAND $<TARGET_FILE:assay> verify taylor-bar --levels 2 --out gates/taylor-bar)

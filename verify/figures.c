@@ -51,13 +51,27 @@ static bool read_axis(const struct solver_scene *scene, const struct solver_opti
     return k == (double)argument->axis + 1;
 }
 
+static bool read_number(const struct solver_scene *scene, const struct solver_option *given,
+                        struct verify_argument *argument)
+{
+    (void)scene;
+    *argument = (struct verify_argument){.number = given->number[0]};
+    return given->count == 1;
+}
+
+static bool read_place(const struct solver_scene *scene, const struct solver_option *given,
+                       struct verify_argument *argument)
+{
+    *argument = (struct verify_argument){.place = {given->number[0], given->number[1], given->number[2]}};
+    return given->count == (size_t)scene->dim;
+}
+
 typedef bool reader(const struct solver_scene *scene, const struct solver_option *given,
                     struct verify_argument *argument);
-static reader *const readers[] = {[VERIFY_WINDOW] = read_window,
-                                  [VERIFY_PROBE] = read_probe,
-                                  [VERIFY_BODY] = read_body,
-                                  [VERIFY_LENGTH] = read_length,
-                                  [VERIFY_AXIS] = read_axis};
+static reader *const readers[] = {
+    [VERIFY_WINDOW] = read_window, [VERIFY_PROBE] = read_probe, [VERIFY_BODY] = read_body,
+    [VERIFY_LENGTH] = read_length, [VERIFY_AXIS] = read_axis,   [VERIFY_NUMBER] = read_number,
+    [VERIFY_PLACE] = read_place};
 
 static const struct solver_option *find_option(const struct solver_figure *figure, const char *name)
 {
@@ -123,6 +137,10 @@ static bool check(const struct solver_scene *scene, const struct verify_truth *t
         return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" is for dim = 1, the scene has dim = %d",
                            OF(scene, figure), measure->name, scene->dim);
     }
+    if (measure->flow && !solver_scene_flows(scene)) {
+        return solver_fail(error, SOLVER_BAD_INPUT, WHERE "the measure \"%s\" is of a material with a yield stress",
+                           OF(scene, figure), measure->name);
+    }
     if (truth->none && (measure->needs_fronts || !(measure->none_is_exact || measure->expected))) {
         return solver_fail(error, SOLVER_BAD_INPUT,
                            WHERE "the measure \"%s\" is compared with an oracle, and the scene has none",
@@ -152,10 +170,11 @@ bool verify_figures_check(const struct solver_scene *scene, const struct verify_
 }
 
 bool verify_figures_measure(const struct solver_scene *scene, const struct verify_truth *truth,
-                            const struct solver_history *history, struct verify_level *level,
-                            struct solver_error *error)
+                            const struct solver_history *history, const struct solver_output *output,
+                            struct verify_level *level, struct solver_error *error)
 {
-    const struct verify_measuring in = {.scene = scene, .truth = truth, .level = level, .history = history};
+    const struct verify_measuring in = {
+        .scene = scene, .truth = truth, .level = level, .history = history, .output = output};
     for (size_t i = 0; i < scene->figure_count; i++) {
         const struct verify_measure *measure = verify_measure_find(scene->figure[i].measure);
         struct verify_argument argument[VERIFY_ARGUMENTS] = {{0}};
@@ -169,7 +188,8 @@ bool verify_figures_measure(const struct solver_scene *scene, const struct verif
         if (!read_arguments(scene, &scene->figure[i], measure, argument, error)) {
             return false;
         }
-        out->exact = measure->expected ? argument[0].length : out->exact;
+        bool length = measure->option[0].kind == VERIFY_LENGTH;
+        out->exact = !measure->expected ? out->exact : length ? argument[0].length : argument[0].number;
         if (!measure->measure(&in, argument, &out->measured, error)) {
             return false;
         }

@@ -10,7 +10,7 @@ bool verify_figures_check(const struct solver_scene *scene, const struct verify_
                           struct solver_error *error);
 /* Measures all of the scene's figures into the level; they must have passed the check. */
 bool verify_figures_measure(const struct solver_scene *scene, const struct verify_truth *truth,
-                            const struct solver_history *history, struct verify_level *level,
-                            struct solver_error *error);
+                            const struct solver_history *history, const struct solver_output *output,
+                            struct verify_level *level, struct solver_error *error);
 
 #endif

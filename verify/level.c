@@ -108,7 +108,7 @@ bool verify_level_measure(struct verify_level *level, const struct solver_scene 
     level->facts = solver_run_facts(run);
     return verify_norms_state(output, truth->kind, truth->oracle, level->error, error) &&
            verify_norms_probes(history, truth->kind, truth->oracle, scene->probe_scale, level->error, error) &&
-           verify_figures_measure(scene, truth, history, level, error);
+           verify_figures_measure(scene, truth, history, output, level, error);
 }
 
 void verify_level_free(struct verify_level *level)

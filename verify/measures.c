@@ -47,6 +47,33 @@ static const struct verify_measure measures[] = {
      .help = "of the pressure per step, where it is solved for",
      .none_is_exact = true,
      .measure = verify_iterations},
+    {.name = "plastic strain",
+     .help = "at t_end, mean over ten places from the place `from` to the place `to`, beside the `expected` one",
+     .option = {{"expected", VERIFY_NUMBER}, {"from", VERIFY_PLACE}, {"to", VERIFY_PLACE}},
+     .expected = true,
+     .flow = true,
+     .unit = "-",
+     .measure = verify_plastic_section},
+    {.name = "largest plastic strain",
+     .help = "of all particles at t_end, beside the `expected` one",
+     .option = {{"expected", VERIFY_NUMBER}},
+     .expected = true,
+     .flow = true,
+     .unit = "-",
+     .measure = verify_plastic_most},
+    {.name = "plastic work",
+     .help = "at t_end, beside the `expected` one",
+     .option = {{"expected", VERIFY_NUMBER}},
+     .expected = true,
+     .flow = true,
+     .unit = "J",
+     .measure = verify_plastic_work},
+    {.name = "ram loss",
+     .help = "work of a ram that moves at `speed` along the axis `along` that went nowhere, over the plastic work",
+     .option = {{"along", VERIFY_AXIS}, {"speed", VERIFY_NUMBER}},
+     .none_is_exact = true,
+     .flow = true,
+     .measure = verify_ram_loss},
     {.name = "contact time",
      .help = "from the first moment at which bodies press each other to the last",
      .measure = verify_contact_time},
@@ -78,5 +105,7 @@ const char *verify_option_spelling(enum verify_option kind)
            : kind == VERIFY_BODY   ? "{ k }, the k-th of the bodies"
            : kind == VERIFY_LENGTH ? "{ d }, a length [m]"
            : kind == VERIFY_AXIS   ? "{ k }, the k-th of the axes"
+           : kind == VERIFY_NUMBER ? "{ value }, a number"
+           : kind == VERIFY_PLACE  ? "{ x, y }, as many numbers as dimensions [m]"
                                    : "the name of a probe";
 }

@@ -12,6 +12,7 @@ struct verify_measuring {
     const struct verify_truth *truth;
     const struct verify_level *level;
     const struct solver_history *history;
+    const struct solver_output *output; /* at the end of the run */
 };
 
 /* Options of a measure, all of which it needs. */
@@ -21,7 +22,9 @@ enum verify_option {
     VERIFY_PROBE,  /* the name of a probe */
     VERIFY_BODY,   /* { k }: the k-th body */
     VERIFY_LENGTH, /* { d }: a length [m] */
-    VERIFY_AXIS    /* { k }: the k-th axis */
+    VERIFY_AXIS,   /* { k }: the k-th axis */
+    VERIFY_NUMBER, /* { value }, in the measure's unit */
+    VERIFY_PLACE   /* { x, y, ... }: a place that does not move with the body [m] */
 };
 
 struct verify_argument {
@@ -31,6 +34,8 @@ struct verify_argument {
     size_t body;
     double length; /* [m] */
     size_t axis;   /* 0, 1, 2 */
+    double number;
+    double place[3]; /* [m] */
 };
 
 enum { VERIFY_ARGUMENTS = 4 };
@@ -43,7 +48,8 @@ struct verify_measure {
     } option[VERIFY_ARGUMENTS]; /* ends with VERIFY_NO_OPTION, unless full */
     bool in_1d_only;
     bool none_is_exact; /* the exact value is 0; otherwise the oracle has a figure of the same name */
-    bool expected;      /* neither: the scene says by the first option, a length, what is expected */
+    bool expected;      /* neither: the scene says by the first option, a length or a number, what is expected */
+    bool flow;          /* of a material that flows plastically */
     const char *unit;   /* of one that needs no oracle; NULL: none */
     bool needs_fronts;
     /* The figure; NaN where there is nothing to measure. Arguments in the order of `option`. */
@@ -95,6 +101,22 @@ bool verify_volume_change(const struct verify_measuring *in, const struct verify
 /* Iterations per step that the pressure took; NaN where it is not solved for. */
 bool verify_iterations(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                        struct solver_error *error);
+/* Plastic strain across a section of the body as it is: the mean of ten places, evenly spread between two. At each it
+ * is that of particles within two spacings, weighed by their volume and the kernel 004_0c0448173ed5e9bd.txt, eq. 3.4.
+ * NaN where there is no particle near one. */
+bool verify_plastic_section(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                            struct solver_error *error);
+/* The largest of all particles at the end. */
+bool verify_plastic_most(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                         struct solver_error *error);
+/* Plastic work [J] at the end. */
+bool verify_plastic_work(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                         struct solver_error *error);
+/* Of a body that one ram drives along an axis at a constant speed: the work of the ram, by the momentum of body and
+ * walls along that axis, which has no other source, that is no energy of the body and was not taken by plastic flow,
+ * over the plastic work. */
+bool verify_ram_loss(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                     struct solver_error *error);
 
 /* Period [s] of u(t) = a + exp(-d t) (b cos w t + c sin w t), fitted by least squares to `count` rows; NaN where fewer
  * than one and a half periods are there, or such a motion explains less than half of what is there. */

@@ -1,8 +1,9 @@
 #include "verify/json.h"
 #include "verify/report.h"
 
-/* NAME: value over the first `count` errors, of which only those that the scene and its scheme can have. */
-static void errors(FILE *file, const struct solver_scene *scene, size_t count, const double *value)
+/* NAME: value over the first `count` errors, of which only those that the scene and its scheme can have. Returns what
+ * stands before a further member. */
+static const char *errors(FILE *file, const struct solver_scene *scene, size_t count, const double *value)
 {
     const char *lacks = NULL;
     const char *between = "";
@@ -13,6 +14,7 @@ static void errors(FILE *file, const struct solver_scene *scene, size_t count, c
             between = ", ";
         }
     }
+    return between;
 }
 
 /* {NAME: order} over errors and figures; one level has none. */
@@ -22,14 +24,15 @@ static void rates(FILE *file, const struct verify_study *study)
     const struct verify_level *finest = &study->level[study->level_count - 1];
     (void)fputs("],\n  \"rates\": {", file);
     if (study->level_count > 1) {
-        errors(file, scene, VERIFY_BESIDE, finest->rate);
+        const char *between = errors(file, scene, VERIFY_BESIDE, finest->rate);
         for (size_t i = 0; i < scene->figure_count; i++) {
             char name[SOLVER_NAME + 8];
             (void)snprintf(name, sizeof name, "figure %s", scene->figure[i].name);
-            (void)fputs(", ", file);
+            (void)fputs(between, file);
             verify_json_string(file, name);
             (void)fputs(": ", file);
             verify_json_number(file, finest->figure[i].rate);
+            between = ", ";
         }
     }
     (void)fputc('}', file);
@@ -42,7 +45,7 @@ static void snapshots(FILE *file, const struct solver_scene *scene, const struct
         (void)fputs(i == 0 ? "{" : ", {", file);
         verify_json_number_member(file, "t", level->snapshot[i].time);
         (void)fputs(", \"errors\": {", file);
-        errors(file, scene, VERIFY_STATE_ERRORS, level->snapshot[i].error);
+        (void)errors(file, scene, VERIFY_STATE_ERRORS, level->snapshot[i].error);
         (void)fputs("}}", file);
     }
     (void)fputc(']', file);
@@ -85,7 +88,7 @@ static void level_object(FILE *file, const struct solver_scene *scene, const str
     (void)fputs(", ", file);
     verify_json_number_member(file, "ns_per_particle_step", level->ns_per_particle_step);
     (void)fputs(", \"errors\": {", file);
-    errors(file, scene, VERIFY_ERRORS, level->error);
+    (void)errors(file, scene, VERIFY_ERRORS, level->error);
     (void)fputc('}', file);
     snapshots(file, scene, level);
     figures(file, scene, level);

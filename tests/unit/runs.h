@@ -42,8 +42,8 @@ struct sample {
     struct solver_error error;
 };
 
-/* The scene alone: the block with `more` appended and overrides KEY=VALUE, separated by blanks. */
-static inline struct sample load_scene(const char *more, const char *format, va_list arguments)
+/* The block with `more` appended and overrides KEY=VALUE, separated by blanks; scene is NULL if it is refused. */
+static inline struct sample try_scene(const char *more, const char *format, va_list arguments)
 {
     struct sample sample = {.run = NULL};
     char path[] = "/tmp/assay-run-XXXXXX";
@@ -63,12 +63,37 @@ static inline struct sample load_scene(const char *more, const char *format, va_
     CU_ASSERT_FATAL(fprintf(file, "%s%s%s%s", block, strstr(more, "domain = ") ? "" : plain_domain,
                             strstr(more, "material = ") ? "" : plain_material, more) > 0);
     CU_ASSERT_EQUAL_FATAL(fclose(file), 0);
-    if (!solver_scene_load(path, overrides, count, &sample.scene, &sample.error)) {
-        printf("\n    %s: %s", words, sample.error.text);
-        CU_FAIL_FATAL("the scene is refused");
-    }
+    (void)solver_scene_load(path, overrides, count, &sample.scene, &sample.error);
     unlink(path);
     return sample;
+}
+
+/* The scene alone. */
+static inline struct sample load_scene(const char *more, const char *format, va_list arguments)
+{
+    struct sample sample = try_scene(more, format, arguments);
+    if (sample.scene == NULL) {
+        printf("\n    %s: %s", format, sample.error.text);
+        CU_FAIL_FATAL("the scene is refused");
+    }
+    return sample;
+}
+
+/* A scene that must not load, and why not. */
+static inline void expect_refused(const char *more, const char *expected, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+static inline void expect_refused(const char *more, const char *expected, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    struct sample sample = try_scene(more, format, arguments);
+    va_end(arguments);
+    bool says_so = sample.scene == NULL && strstr(sample.error.text, expected) != NULL;
+    if (!says_so) {
+        printf("\n    expected \"%s\", got \"%s\"", expected, sample.scene == NULL ? sample.error.text : "a scene");
+    }
+    CU_ASSERT(says_so);
+    solver_scene_free(sample.scene);
 }
 
 /* On failure run is NULL. */

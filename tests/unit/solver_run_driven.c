@@ -129,6 +129,31 @@ static void rollers_meet(void)
     finish(&sample);
 }
 
+/* A face moved in part: the rest of it is free, the ends of the part are not. */
+static void moved_in_part(void)
+{
+    for (int roller = 0; roller < 2; roller++) {
+        struct sample sample =
+            start("parameters = { roller = 0 }\n"
+                  "faces = { Y1 = { kind = roller == 1 and 'roller' or 'motion',\n"
+                  "    value = function() return 0.3, -0.1 end, within = { {0.25, 0}, {0.5, 2} } },\n"
+                  "    Y0 = 'symmetric' }\n",
+                  "dim=2 n=4 t_end=0.2 roller=%d", roller);
+        run_to_end(&sample);
+        struct solver_output output = output_of(&sample);
+        size_t led = 0;
+        for (size_t a = 0; a < output.cloud->count; a++) {
+            double X = output.cloud->X[2 * a], Y = output.cloud->X[2 * a + 1];
+            bool moves = Y == 1.0 && (X == 0.25 || X == 0.5);
+            CU_ASSERT_EQUAL(output.v[2 * a + 1] == -0.1, moves);
+            CU_ASSERT_EQUAL(output.v[2 * a] == 0.3, moves && roller == 0);
+            led += moves;
+        }
+        CU_ASSERT_EQUAL(led, 2);
+        finish(&sample);
+    }
+}
+
 /* Where moved faces meet and say different things: one that moves all axes leads rollers, the first of two leads the
  * other, and each is let go when the one that leads is. */
 static void the_first_of_moved_faces_leads(void)
@@ -168,6 +193,7 @@ int main(void)
         {"rollers hold the normal alone", rollers_hold_the_normal_alone},
         {"rollers meet others", rollers_meet},
         {"the first of moved faces leads", the_first_of_moved_faces_leads},
+        {"a face moved in part", moved_in_part},
     };
     return unit_main("driven runs", tests, sizeof tests / sizeof *tests);
 }

@@ -125,7 +125,7 @@ static void of_the_exact_wave(void)
     open_scene("bimaterial-wave");
     CU_ASSERT_FATAL(verify_figures_check(scene, &truth, &error));
     exact_snapshots(4097);
-    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, &level, &error));
+    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, NULL, &level, &error));
     CU_ASSERT(figure_of("reflection")->error < 1e-8 && figure_of("transmission")->error < 1e-8);
     CU_ASSERT_DOUBLE_EQUAL(figure_of("reflection")->exact, 0.40583, 5e-6);
     CU_ASSERT_DOUBLE_EQUAL(figure_of("transmission")->exact, 1.40583, 5e-6);
@@ -136,11 +136,11 @@ static void of_the_exact_wave(void)
         peak = fmax(peak, fabs(level.snapshot[1].point[i].exact));
     }
     level.snapshot[1].point[4000].computed = 0.02 * peak; /* where nothing has arrived */
-    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, &level, &error));
+    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, NULL, &level, &error));
     CU_ASSERT_DOUBLE_EQUAL(figure_of("reflection")->error, 1 - 1 / 1.01, 1e-8);
     CU_ASSERT_DOUBLE_EQUAL(figure_of("ahead of the front")->error, 0.02, 1e-12);
     level.snapshot[1].point[4001].computed = NAN;
-    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, &level, &error));
+    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, NULL, &level, &error));
     CU_ASSERT(isnan(figure_of("ahead of the front")->error));
 }
 
@@ -151,7 +151,7 @@ static void behind_is_not_ahead(void)
     open_scene("bimaterial-wave");
     exact_snapshots(4097);
     level.snapshot[1].point[5].computed = 1e9;
-    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, &level, &error));
+    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &none, NULL, &level, &error));
     CU_ASSERT(figure_of("ahead of the front")->measured == 0);
 }
 
@@ -216,6 +216,18 @@ static void refusals(void)
     scene->figure_count = 1;
     scene->figure[0] = (struct solver_figure){.name = "noise", .measure = "stress ahead"};
     refused("figures.noise: the measure \"stress ahead\" needs an oracle that has fronts");
+    scene->figure[0] = (struct solver_figure){.name = "flow", .measure = "plastic work", .option_count = 1};
+    scene->figure[0].option[0] = (struct solver_option){.name = "expected", .number = {1}, .count = 1};
+    refused("figures.flow: the measure \"plastic work\" is of a material with a yield stress");
+    scene->hardening.yield = 1;
+    CU_ASSERT(verify_figures_check(scene, &truth, &error));
+    scene->figure[0].option[0].count = 2;
+    refused("figures.flow: expected: not as it must be; expected { value }, a number");
+    strcpy(scene->figure[0].measure, "plastic strain");
+    scene->figure[0].option_count = 3;
+    scene->figure[0].option[0].count = 1;
+    scene->figure[0].option[1] = (struct solver_option){.name = "from", .number = {1, 2}, .count = 2};
+    refused("figures.flow: from: not as it must be; expected { x, y }, as many numbers as dimensions [m]");
 }
 
 /* A probe that is carried along Y and has gone 5e-3 m aside on the way, by 3 and 4 along X and Z. */
@@ -286,7 +298,7 @@ static void distance_and_loss(void)
     scene->figure[0].option[1] = (struct solver_option){.name = "from", .text = "foot"};
     scene->figure[0].option[2] = (struct solver_option){.name = "to", .text = "rim"};
     CU_ASSERT_FATAL(verify_figures_check(scene, &truth, &error));
-    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &history, &level, &error));
+    CU_ASSERT_FATAL(verify_figures_measure(scene, &truth, &history, NULL, &level, &error));
     CU_ASSERT(level.figure[0].exact == 10 && strcmp(level.figure[0].unit, "m") == 0);
     CU_ASSERT_DOUBLE_EQUAL(level.figure[0].error, 0.5, 1e-15);
     scene->figure[0].option[2].text[0] = 'R';
