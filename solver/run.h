@@ -49,6 +49,7 @@ struct solver_history {
     struct solver_totals *totals; /* [count] */
     bool flows;                   /* the material flows plastically: totals->plastic tells something */
     bool walled;                  /* there is a rigid wall: totals->wall tells something */
+    bool mirrored[3];             /* a plane of symmetry lies across that axis, and takes the momentum along it */
     size_t probe_count;
     char (*probe_name)[64]; /* [probe_count] */
     double (*probe_X)[3];   /* [probe_count] where the probed particle lies [m] */

@@ -205,6 +205,10 @@ static bool start_history(struct solver_run *run, struct solver_error *error)
     history->probe_count = run->scene->probe_count;
     history->flows = solver_scene_flows(run->scene);
     history->walled = run->wall.count > 0;
+    for (int axis = 0; axis < 3; axis++) {
+        const enum solver_face_kind *face = run->scene->face + 2 * axis;
+        history->mirrored[axis] = face[0] == SOLVER_SYMMETRIC || face[1] == SOLVER_SYMMETRIC;
+    }
     if (!solver_alloc((void **)&history->probe_name, history->probe_count, sizeof *history->probe_name, "probes",
                       error) ||
         !solver_alloc((void **)&history->probe_X, history->probe_count, sizeof *history->probe_X, "probes", error)) {

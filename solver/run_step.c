@@ -1,6 +1,7 @@
 /* A run in time: rates, stages, steps, and the checks that stop it. */
 #include "solver/pieces.h"
 #include "solver/run_internal.h"
+#include "solver/symmetry.h"
 
 #include <math.h>
 #include <omp.h>
@@ -99,13 +100,31 @@ static void update_slice(const struct solver_state *state, const struct solver_s
     }
 }
 
-void solver_run_refresh(struct solver_run *run)
+/* What follows from the state of particles from `first` on. */
+static void refresh_from(struct solver_run *run, size_t first)
 {
-    size_t count = run->cloud->count;
+    size_t count = run->cloud->count - first;
 #pragma omp parallel for schedule(static)
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
         struct solver_piece at = solver_piece_at(piece, count);
-        run->scheme->refresh(run->system, at.begin, at.end);
+        run->scheme->refresh(run->system, first + at.begin, first + at.end);
+    }
+}
+
+void solver_run_refresh(struct solver_run *run)
+{
+    if (run->cloud->symmetry != NULL) {
+        solver_symmetry_reflect(run->cloud, &run->state);
+    }
+    refresh_from(run, 0);
+}
+
+/* The state of images, of which nothing is evolved, and what follows from it. */
+static void reflect(struct solver_run *run)
+{
+    if (run->cloud->symmetry != NULL) {
+        solver_symmetry_reflect(run->cloud, &run->state);
+        refresh_from(run, solver_cloud_driven(run->cloud));
     }
 }
 
@@ -114,9 +133,10 @@ static bool update(struct solver_run *run, const struct solver_stage *stage, dou
                    struct solver_error *error)
 {
     struct solver_state *state = &run->state;
+    size_t count = solver_cloud_driven(run->cloud);
 #pragma omp parallel for schedule(static)
-    for (size_t piece = 0; piece < solver_pieces(state->count); piece++) {
-        struct solver_piece at = solver_piece_at(piece, state->count);
+    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+        struct solver_piece at = solver_piece_at(piece, count);
         for (size_t f = 0; f < state->field_count && state->field[f].evolved; f++) {
             size_t width = state->field[f].width;
             size_t offset = state->field[f].offset;
@@ -166,6 +186,7 @@ static bool stages(struct solver_run *run, double dt, double *work, struct solve
             return false;
         }
         solver_wall_stop(&run->wall, &run->state, integrator, s);
+        reflect(run);
         *work += stage->weight * dt * power;
     }
     return true;
@@ -179,6 +200,9 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
         return false;
     }
     solver_wall_begin(&run->wall, &run->state, dt);
+    if (run->wall.count > 0 && run->cloud->symmetry != NULL) {
+        solver_symmetry_reflect(run->cloud, &run->state);
+    }
     if (!stages(run, dt, &work, error)) {
         say_when(run, dt, error);
         return false;

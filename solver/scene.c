@@ -169,6 +169,7 @@ static int read_scene(lua_State *L)
     if (scene->has_view)
         check_view(L, &scene->view);
     scene_read_faces(L, scene);
+    scene_hold_symmetry(L, scene);
     scene_check_faces(L, scene);
     scene_read_resolution(L, scene);
     scene_read_probes(L, scene);

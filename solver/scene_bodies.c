@@ -185,6 +185,7 @@ static void check_domain(lua_State *L, struct solver_scene *scene)
         check_corners(L, scene->dim, "domain", scene->lower, scene->upper);
     else
         check_round(L, scene);
+    scene_read_symmetry(L, scene);
     if (scene->reference_length == 0) /* not given */
         scene->reference_length = box ? scene->upper[0] - scene->lower[0] : scene->domain.outer;
 }
@@ -209,6 +210,8 @@ void scene_read_bodies(lua_State *L, struct solver_scene *scene)
 static bool has_face(const struct solver_scene *scene, int face)
 {
     enum solver_shape_kind shape = scene->domain.kind;
+    if (face < SOLVER_SURFACE && face % 2 == 0 && scene->domain.cut[face / 2])
+        return true;
     return shape == SOLVER_SHAPE_BOX        ? face < SOLVER_SURFACE
            : shape == SOLVER_SHAPE_CYLINDER ? face >= 4
                                             : face == SOLVER_SURFACE;

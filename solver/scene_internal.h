@@ -135,6 +135,10 @@ size_t scene_list_length(lua_State *L, const char *key, size_t limit, bool named
 void scene_read_plain(lua_State *L, struct solver_scene *scene);
 /* Domain or bodies; the plain keys are there. */
 void scene_read_bodies(lua_State *L, struct solver_scene *scene);
+/* Planes of symmetry; the domain is there. */
+void scene_read_symmetry(lua_State *L, struct solver_scene *scene);
+/* The conditions on them, once those of faces are there. */
+void scene_hold_symmetry(lua_State *L, struct solver_scene *scene);
 extern const char scene_face_kinds[]; /* words */
 void scene_read_faces(lua_State *L, struct solver_scene *scene);
 /* Refuses conditions that the scene's lattice does not allow. */

@@ -32,6 +32,8 @@ X("domain.upper", NUMBERS, AT(upper), 0, 0, 0, "", OPTIONAL, "list of dim number
 X("domain.centre", NUMBERS, AT(domain.centre), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "of a round domain")     \
 X("domain.radius", NUMBER, AT(domain.outer), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a round domain")  \
 X("domain.length", NUMBER, AT(domain.length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a cylinder")     \
+X("domain.symmetry", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ X = place, ... }",                                          \
+  "planes of symmetry [m], through the centre of a round domain: what lies above them is modelled")                    \
 X("bodies", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                       \
   "list of up to 16 { shape = \"box\", lower = { ... }, upper = { ... } } or { shape = \"ring\", centre = {x, y}, inner = r, outer = R }", \
   "several bodies, in place of domain")                                                                                \

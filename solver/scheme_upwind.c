@@ -4,6 +4,7 @@
 
 #include "solver/memory.h"
 #include "solver/pieces.h"
+#include "solver/symmetry.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -45,12 +46,28 @@ void solver_upwind_destroy(void *of)
     free(system);
 }
 
+/* The stencil of the body's cloud; of a part of a symmetric body that of the whole is made, and reduced. */
+static bool make_stencil(struct solver_upwind_system *system, const struct solver_stencil_builder *builder,
+                         struct solver_error *error)
+{
+    const struct solver_scene *scene = system->body->scene;
+    const struct solver_cloud *part = system->body->cloud;
+    const struct solver_cloud *cloud = part->symmetry != NULL ? part->symmetry->whole : part;
+    bool least_squares = strcmp(scene->reconstruction, "least-squares") == 0;
+    struct solver_stencil **stencil = &system->stencil;
+    if (!solver_stencil_create(builder, cloud, scene->support, stencil, error) ||
+        (least_squares && !solver_stencil_add_least_squares(*stencil, cloud, error))) {
+        return false;
+    }
+    system->residuals = solver_stencil_check(*stencil, cloud);
+    return part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error);
+}
+
 bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error)
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
     const struct solver_material_model *model = solver_material_find(scene->material_model);
-    bool least_squares = strcmp(scene->reconstruction, "least-squares") == 0;
     struct solver_upwind_system *system = NULL;
     if (builder == NULL || model == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: no stencil \"%s\" or material \"%s\"", scene->path,
@@ -61,13 +78,11 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
     }
     system->body = body;
     choose_terms(system, model->in[scene->dim - 1]);
-    if (!solver_stencil_create(builder, body->cloud, scene->support, &system->stencil, error) ||
-        (least_squares && !solver_stencil_add_least_squares(system->stencil, body->cloud, error))) {
+    if (!make_stencil(system, builder, error)) {
         solver_upwind_destroy(system);
         return false;
     }
     bind_stencil(system);
-    system->residuals = solver_stencil_check(system->stencil, body->cloud);
     *out = system;
     return true;
 }
@@ -82,7 +97,7 @@ struct solver_geometry solver_upwind_geometry(const void *of)
     const struct solver_upwind_system *system = of;
     const struct solver_stencil *stencil = system->stencil;
     return (struct solver_geometry){
-        .V = stencil->V,
+        .V = stencil->own != NULL ? stencil->own : stencil->V,
         .face_point = stencil->face_point,
         .face_point_count = stencil->face_point_count,
         .pairs = stencil->pairs,

@@ -2,6 +2,8 @@
 #ifndef SOLVER_SHAPE_H
 #define SOLVER_SHAPE_H
 
+#include <stdbool.h>
+
 /* Those up to the cylinder are possible domains. A disc and a ring lie in 2D, a ball and a cylinder in 3D. */
 enum solver_shape_kind {
     SOLVER_SHAPE_BOX,
@@ -21,6 +23,8 @@ struct solver_shape {
     double centre[3];          /* [m] of any other shape */
     double inner, outer;       /* [m] radii; only a ring has an inner one */
     double length;             /* [m] of a cylinder */
+    bool cut[3];               /* across that axis lies a plane of symmetry; what is above it is there */
+    double plane[3];           /* [m] where it lies */
 };
 
 #endif

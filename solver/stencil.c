@@ -154,6 +154,7 @@ void solver_stencil_free(struct solver_stencil *stencil)
     free(stencil->row_sum);
     free(stencil->least_squares);
     free(stencil->V);
+    free(stencil->own);
     free(stencil->face_point);
     free(stencil);
 }
@@ -203,7 +204,8 @@ size_t solver_stencil_bytes(const struct solver_stencil *stencil)
     size_t per_pair = sizeof *stencil->graph.neighbour + (dim + 1) * sizeof(double) +
                       (stencil->transposed != NULL ? dim * sizeof(double) : 0) +
                       (stencil->least_squares != NULL ? dim * sizeof(double) : 0);
-    size_t per_particle = sizeof *stencil->graph.row + (dim + 1) * sizeof(double);
+    size_t per_particle =
+        sizeof *stencil->graph.row + (dim + 1) * sizeof(double) + (stencil->own != NULL ? sizeof(double) : 0);
     return stencil->pairs * per_pair + stencil->count * per_particle +
            stencil->face_point_count * sizeof *stencil->face_point;
 }
