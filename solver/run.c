@@ -178,6 +178,12 @@ static bool build(struct solver_run *run, struct solver_error *error)
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: material.yield_stress: the scheme %s knows no plastic flow",
                            scene->path, run->scheme->name);
     }
+    if (scene->balance && run->scheme->lost == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: balance: what the dissipation of the scheme %s takes is not measured; expected scheme = "
+                           "\"upwind\" or \"jst\"",
+                           scene->path, run->scheme->name);
+    }
     if (!run->scheme->stencil && (scene->domain.cut[0] || scene->domain.cut[1] || scene->domain.cut[2])) {
         return solver_fail(error, SOLVER_BAD_INPUT,
                            "%s: domain.symmetry: images are neighbours in a stencil, and the scheme %s has none; "

@@ -40,7 +40,9 @@ struct solver_totals {
     double kinetic, strain; /* [J] */
     double plastic;         /* work that plastic flow has taken since the start [J]; 0 where nothing is plastic */
     double external;        /* work of tractions and body forces since the start [J] */
-    double wall[3];         /* impulse on the rigid wall since the start [N s]; 0 where there is none */
+    double numerical; /* taken by the scheme's dissipation since the start [J]; 0 unless the scene's balance asks */
+    double impact;    /* taken by impacts on the rigid wall since the start [J]; 0 unless the scene's balance asks */
+    double wall[3];   /* impulse on the rigid wall since the start [N s]; 0 where there is none */
 };
 
 /* Time history: one row per recorded time. */
@@ -49,6 +51,7 @@ struct solver_history {
     struct solver_totals *totals; /* [count] */
     bool flows;                   /* the material flows plastically: totals->plastic tells something */
     bool walled;                  /* there is a rigid wall: totals->wall tells something */
+    bool balanced;                /* totals->numerical and impact tell something */
     bool mirrored[3];             /* a plane of symmetry lies across that axis, and takes the momentum along it */
     size_t probe_count;
     char (*probe_name)[64]; /* [probe_count] */

@@ -205,6 +205,7 @@ static bool start_history(struct solver_run *run, struct solver_error *error)
     history->probe_count = run->scene->probe_count;
     history->flows = solver_scene_flows(run->scene);
     history->walled = run->wall.count > 0;
+    history->balanced = run->scene->balance;
     for (int axis = 0; axis < 3; axis++) {
         const enum solver_face_kind *face = run->scene->face + 2 * axis;
         history->mirrored[axis] = face[0] == SOLVER_SYMMETRIC || face[1] == SOLVER_SYMMETRIC;
@@ -230,7 +231,8 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
     size_t dim = (size_t)run->cloud->dim;
     size_t lanes = run->state.lanes;
     const double *V = run->scheme->geometry(run->system).V;
-    struct solver_totals totals = {.time = run->time, .external = run->external};
+    struct solver_totals totals = {.time = run->time, .external = run->external, .numerical = run->numerical};
+    totals.impact = run->scene->balance ? run->wall.taken : 0.0;
     memcpy(totals.wall, run->wall.impulse, sizeof totals.wall);
     for (size_t a = 0; a < run->shown.count; a++) { /* one order of summation, whatever the threads */
         add_particle(run, a, V[a], &totals);

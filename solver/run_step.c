@@ -169,16 +169,24 @@ static void say_when(const struct solver_run *run, double dt, struct solver_erro
     }
 }
 
-/* All stages of a step; *work becomes that of the loads. After a failure the state is that of the start. */
-static bool stages(struct solver_run *run, double dt, double *work, struct solver_error *error)
+/* Work over a step [J]. */
+struct work {
+    double external, numerical; /* of the loads; taken by the scheme's dissipation, where the scene's balance asks */
+};
+
+/* All stages of a step. After a failure the state is that of the start. */
+static bool stages(struct solver_run *run, double dt, struct work *work, struct solver_error *error)
 {
     const struct solver_integrator *integrator = run->integrator;
-    *work = 0.0;
+    *work = (struct work){.external = 0.0};
     for (int s = 0; s < integrator->stages; s++) {
         const struct solver_stage *stage = &integrator->stage[s];
         double next = s + 1 < integrator->stages ? integrator->stage[s + 1].time : 1.0;
         double power;
         bool known = evaluate(run, s, dt, &power, error);
+        if (known && run->scene->balance) {
+            work->numerical += stage->weight * dt * run->scheme->lost(run->system);
+        }
         if (!known || !update(run, stage, run->time + next * dt, dt, error)) {
             if (known || s > 0) { /* else there is nothing to take back, and no start of this step yet */
                 take_back(run);
@@ -187,7 +195,7 @@ static bool stages(struct solver_run *run, double dt, double *work, struct solve
         }
         solver_wall_stop(&run->wall, &run->state, integrator, s);
         reflect(run);
-        *work += stage->weight * dt * power;
+        work->external += stage->weight * dt * power;
     }
     return true;
 }
@@ -195,7 +203,7 @@ static bool stages(struct solver_run *run, double dt, double *work, struct solve
 static bool step(struct solver_run *run, double dt, struct solver_error *error)
 {
     double before = run->time;
-    double work;
+    struct work work;
     if (run->scheme->prepare != NULL && !run->scheme->prepare(run->system, dt, error)) {
         return false;
     }
@@ -210,8 +218,9 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
     run->time += dt;
     run->step++;
     if (solver_run_check(run, error)) {
-        run->external += work;
-        solver_wall_end(&run->wall);
+        run->external += work.external;
+        run->numerical += work.numerical;
+        solver_wall_end(&run->wall, &run->state);
         return true;
     }
     take_back(run);

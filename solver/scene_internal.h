@@ -16,6 +16,7 @@ enum scene_kind {
     SCENE_TEXT,       /* char[SOLVER_TEXT] */
     SCENE_WORD,       /* char[SOLVER_NAME], out of `words` */
     SCENE_INDEX,      /* int: place within `words` */
+    SCENE_FLAG,       /* bool */
     SCENE_NUMBER,     /* double */
     SCENE_INTEGER,    /* int */
     SCENE_SEED,       /* uint64_t */

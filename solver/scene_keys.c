@@ -129,6 +129,8 @@ X("snapshots", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasin
   "times at which a study compares the state with the oracle, besides t_end")                                          \
 X("history", INTEGER, AT(history), 1, 100000, 0, "", "200", "whole number in [1, 100000]",                             \
   "rows of the time history over t_end, if there are as many steps")                                                   \
+X("balance", FLAG, AT(balance), 0, 0, 0, "", "false", "true or false",                                                 \
+  "the energy that numerical dissipation and a rigid wall take is measured, and a column of the history")              \
 X("precision", WORD, AT(precision), 0, 0, 0, "double | mixed", "double", "one of double", "floating-point precision")  \
 X("threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
   "threads; 0: as many as there are cores and the work is worth")                                                     \

@@ -152,10 +152,11 @@ void solver_wall_free(struct solver_wall *wall)
 static void stop(const struct solver_wall *wall, const struct solver_state *state, double share, double impulse[3])
 {
     for (size_t s = 0; s < wall->count; s++) {
-        const struct solver_wall_site *site = &wall->site[s];
+        struct solver_wall_site *site = &wall->site[s];
         double *v = state->v + site->particle * state->lanes;
         double excess = site->bound - along_normal(wall, v);
         if (excess > 0.0) {
+            site->given += share * excess;
             for (size_t i = 0; i < wall->dim; i++) {
                 v[i] += excess * wall->normal[i];
                 impulse[i] -= share * site->mass * excess * wall->normal[i];
@@ -169,8 +170,16 @@ void solver_wall_begin(struct solver_wall *wall, const struct solver_state *stat
     for (size_t s = 0; s < wall->count; s++) {
         struct solver_wall_site *site = &wall->site[s];
         site->bound = -fmax(distance(wall, state->x + site->particle * state->lanes), 0.0) / dt;
+        site->start = along_normal(wall, state->v + site->particle * state->lanes);
+        site->given = 0.0;
     }
     stop(wall, state, 1.0, wall->impulse);
+    for (size_t s = 0; s < wall->count; s++) {
+        struct solver_wall_site *site = &wall->site[s];
+        wall->taken -= site->mass * site->given * (site->start + 0.5 * site->given);
+        site->start += site->given;
+        site->given = 0.0;
+    }
     memset(wall->stepping, 0, sizeof wall->stepping);
 }
 
@@ -184,8 +193,13 @@ void solver_wall_stop(struct solver_wall *wall, const struct solver_state *state
     stop(wall, state, share, wall->stepping);
 }
 
-void solver_wall_end(struct solver_wall *wall)
+void solver_wall_end(struct solver_wall *wall, const struct solver_state *state)
 {
+    for (size_t s = 0; s < wall->count; s++) {
+        const struct solver_wall_site *site = &wall->site[s];
+        double end = along_normal(wall, state->v + site->particle * state->lanes);
+        wall->taken -= site->mass * site->given * 0.5 * (site->start + end);
+    }
     for (size_t i = 0; i < wall->dim; i++) {
         wall->impulse[i] += wall->stepping[i];
     }

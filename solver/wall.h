@@ -11,7 +11,9 @@
  *
  * The impulse [N s] on the wall is exact: what a stage takes enters the velocity at the end of the step with the
  * product of the weights `keep` of the later stages (integrator.h), and is counted so. Impulse and momentum of the body
- * add up to what they were to round-off. */
+ * add up to what they were to round-off. So is the energy that impacts take: what is taken before the first stage
+ * changes the velocity v to v + w and the kinetic energy by m w (v + w/2); the stages change that of a step by m w
+ * times the mean of the velocities at its start and its end, whatever else changes the velocity in between. */
 #ifndef SOLVER_WALL_H
 #define SOLVER_WALL_H
 
@@ -23,8 +25,9 @@
 /* A surface particle that may meet the wall. */
 struct solver_wall_site {
     uint32_t particle;
-    double mass;  /* [kg]; per unit thickness in 2D, per unit area in 1D */
-    double bound; /* [m/s] least velocity along the normal in this step, at most 0 */
+    double mass;         /* [kg]; per unit thickness in 2D, per unit area in 1D */
+    double bound;        /* [m/s] least velocity along the normal in this step, at most 0 */
+    double start, given; /* [m/s] velocity along the normal at the start of the step; what its stages add in the end */
 };
 
 struct solver_wall {
@@ -34,6 +37,7 @@ struct solver_wall {
     double point[3], normal[3]; /* [m]; unit, towards the body */
     double impulse[3];          /* [N s] handed to the wall since the start */
     double stepping[3];         /* by the stages of this step, which may yet fail */
+    double taken;               /* [J] of the energy, by impacts since the start */
 };
 
 /* The wall of the body's scene; `geometry` is that of its scheme, `faces` are there. Refuses (SOLVER_BAD_INPUT) schemes
@@ -51,7 +55,7 @@ void solver_wall_begin(struct solver_wall *wall, const struct solver_state *stat
 /* After a stage's update and the constraints of faces. */
 void solver_wall_stop(struct solver_wall *wall, const struct solver_state *state,
                       const struct solver_integrator *integrator, int stage);
-/* Of a step that has not failed: its impulse is final. */
-void solver_wall_end(struct solver_wall *wall);
+/* Of a step that has not failed: its impulse and the energy taken are final. */
+void solver_wall_end(struct solver_wall *wall, const struct solver_state *state);
 
 #endif
