@@ -300,6 +300,23 @@ static void add_ulsph(struct list *list)
     }
 }
 
+/* A body that flows all over and all the time, along a fixed direction at each place: the return map is exact there. */
+static void add_flow(struct list *list)
+{
+    for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
+        for (int b = 0; s->closed && b < 4 * BOUNDARIES; b++) {
+            bool jst = b >= 2 * BOUNDARIES;
+            struct upwind of = {s, evolved_sets[b / BOUNDARIES % 2 == 0 ? 0 : 2], "hencky", 2, b % BOUNDARIES};
+            struct verify_mms_case *which =
+                add_upwind(list, jst ? "JST, plastic flow, 2D" : "plastic flow, 2D", "manufactured-flow", of);
+            set(which, "scheme=%s", jst ? "jst" : "upwind");
+            claim(which, nothing);
+            which->level[0] = 16;
+            which->level[1] = 32;
+        }
+    }
+}
+
 /* Order in time of every integrator, with every kind of boundary data. */
 static void add_time(struct list *list)
 {
@@ -332,6 +349,7 @@ bool verify_mms_cases(struct verify_mms_case **cases, size_t *count, struct solv
     add_isochoric(&list);
     add_waves(&list);
     add_jst(&list);
+    add_flow(&list);
     add_ulsph(&list);
     add_time(&list);
     *cases = list.cases;
