@@ -85,20 +85,21 @@ static double outside(const struct oracle *oracle, const double X[3])
     return sqrt(square);
 }
 
-static void energy(const struct oracle *oracle, double t, double *kinetic, double *strain)
+void verify_manufactured_energies(const struct oracle *oracle, double t, double *kinetic, double *strain,
+                                  double *plastic)
 {
     const struct verify_manufactured_body *body = body_of(oracle);
     int dim = body->of.dim;
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(QUADRATURE);
     size_t points = 1;
-    *kinetic = *strain = rule != NULL ? 0 : NAN;
+    *kinetic = *strain = *plastic = rule != NULL ? 0 : NAN;
     for (int i = 0; i < dim; i++) {
         points *= QUADRATURE;
     }
     for (size_t point = 0; rule != NULL && point < points; point++) {
         struct oracle_kinematics at;
         struct verify_measures measures;
-        double X[3] = {0}, weight = 1;
+        double X[3] = {0}, weight = 1, flown;
         size_t rest = point;
         for (int i = 0; i < dim; i++, rest /= QUADRATURE) {
             double w;
@@ -109,9 +110,16 @@ static void energy(const struct oracle *oracle, double t, double *kinetic, doubl
         verify_manufactured_measures(body, at.F, &measures);
         double square = at.v[0] * at.v[0] + at.v[1] * at.v[1] + at.v[2] * at.v[2];
         *kinetic += weight * 0.5 * body->constants.rho * square;
-        *strain += weight * verify_manufactured_energy(body, &measures);
+        *strain += weight * verify_manufactured_energy(body, &measures, &flown);
+        *plastic += weight * flown;
     }
     gsl_integration_glfixed_table_free(rule);
+}
+
+static void energy(const struct oracle *oracle, double t, double *kinetic, double *strain)
+{
+    double plastic;
+    verify_manufactured_energies(oracle, t, kinetic, strain, &plastic);
 }
 
 static void destroy(struct oracle *oracle)
@@ -169,7 +177,7 @@ static void describe(struct entry *entry)
         {"material.nu", "-", "Poisson's ratio", -1, 0.5, true, true, 0.3},
         {"material.rho", "kg/m^3", "density", 0, INFINITY, true, true, 1},
         {"material.yield_stress", "Pa", "yield stress; 0: the body is elastic", 0, INFINITY, false, true, 0.02},
-        {"material.hardening", "Pa", "rise of the yield stress per plastic strain", 0, INFINITY, false, true, 0.1},
+        {"material.hardening", "Pa", "rise of the yield stress per plastic strain", 0, INFINITY, false, true, 0.5},
         {.name = NULL},
     };
     memcpy(entry->parameter, parameter, sizeof parameter);

@@ -47,12 +47,16 @@ struct verify_measures {
 };
 void verify_manufactured_measures(const struct verify_manufactured_body *body, const double F[9],
                                   struct verify_measures *measures);
-/* Stress [dim][dim] and its component out of the plane or line, strain energy with the work of plastic flow, and the
+/* Stress [dim][dim] and its component out of the plane or line, strain energy and the work of plastic flow, and the
  * divergence of the stress, given dF_iI/dX_J: manufactured_flow.c. */
 bool verify_manufactured_flows(const struct verify_manufactured_body *body);
 void verify_manufactured_stress(const struct verify_manufactured_body *body, const struct verify_measures *of,
                                 double *P, double *normal);
-double verify_manufactured_energy(const struct verify_manufactured_body *body, const struct verify_measures *of);
+double verify_manufactured_energy(const struct verify_manufactured_body *body, const struct verify_measures *of,
+                                  double *plastic);
+/* Of the body: kinetic and strain energy, and the work that plastic flow has taken [J]. */
+void verify_manufactured_energies(const struct oracle *oracle, double t, double *kinetic, double *strain,
+                                  double *plastic);
 void verify_manufactured_divergence(const struct verify_manufactured_body *body, const struct verify_measures *of,
                                     double dF[3][3][3], double divergence[3]);
 /* Equivalent strain, and what of it has flown. */

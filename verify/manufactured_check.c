@@ -170,13 +170,14 @@ static void check_stress(const struct check *check, const double at[4], struct d
                 step = fmin(step, 0.05 * verify_manufactured_strain(body, &here));
             }
             for (int k = -REACH; k <= REACH; k++) {
-                double F[9];
+                double F[9], plastic;
                 struct verify_measures measures;
                 for (int j = 0; j < 9; j++) {
                     F[j] = state.F[j] + (j == 3 * i + I ? k * step : 0);
                 }
                 verify_manufactured_measures(body, F, &measures);
-                double W = verify_manufactured_energy(body, &measures);
+                double W = verify_manufactured_energy(body, &measures, &plastic);
+                W += plastic;
                 slope += k == 0 ? 0 : (k > 0 ? 1 : -1) * weight[(k > 0 ? k : -k) - 1] / step * W;
                 largest = worse(fabs(W), largest);
             }
@@ -299,10 +300,11 @@ static void check_power(struct check *check)
     struct powers sum = {.size = rule != NULL ? 0 : NAN};
     for (int k = 1; k <= REACH; k++) {
         for (int side = -1; side <= 1; side += 2) {
-            double kinetic, strain;
+            double kinetic, strain, plastic;
+            verify_manufactured_energies(check->oracle, t + side * k * step, &kinetic, &strain, &plastic);
             check->kind->energy(check->oracle, t + side * k * step, &kinetic, &strain);
             gain[0] += side * weight[k - 1] / step * kinetic;
-            gain[1] += side * weight[k - 1] / step * strain;
+            gain[1] += side * weight[k - 1] / step * (strain + plastic);
         }
     }
     if (rule != NULL) {

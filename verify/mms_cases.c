@@ -300,20 +300,41 @@ static void add_ulsph(struct list *list)
     }
 }
 
-/* A body that flows all over and all the time, along a fixed direction at each place: the return map is exact there. */
-static void add_flow(struct list *list)
+/* A body that flows all over and all the time, along a fixed direction at each place: the return map is exact there. At
+ * these levels, as measured: where tractions are prescribed stress and plastic strain come late to their order, and
+ * with JST the layer at the boundary (see add_jst) shows. */
+static void add_flow(struct list *list, bool jst)
 {
+    static const double second[VERIFY_MMS_VARIABLES] = {1.7, 1.6, 1.6, 1.6, 1.6, 1.5, 1.7};
+    static const double third[VERIFY_MMS_VARIABLES] = {2.8, 2.8, 2.5, 2.5, 2.8, 2.6, 2.7};
+    static const double with_jst[VERIFY_MMS_VARIABLES] = {1.7, 2.2, 1.4, 1.4, 1.7, 1.0, 1.6};
     for (const struct solver_stencil_builder *s = solver_stencil_builders(); s->name != NULL; s++) {
-        for (int b = 0; s->closed && b < 4 * BOUNDARIES; b++) {
-            bool jst = b >= 2 * BOUNDARIES;
-            struct upwind of = {s, evolved_sets[b / BOUNDARIES % 2 == 0 ? 0 : 2], "hencky", 2, b % BOUNDARIES};
+        for (int b = 0; s->closed && b < (jst ? 1 : 2) * BOUNDARIES; b++) {
+            struct upwind of = {s, evolved_sets[jst || b >= BOUNDARIES ? 2 : 0], "hencky", 2, b % BOUNDARIES};
             struct verify_mms_case *which =
                 add_upwind(list, jst ? "JST, plastic flow, 2D" : "plastic flow, 2D", "manufactured-flow", of);
             set(which, "scheme=%s", jst ? "jst" : "upwind");
-            claim(which, nothing);
+            claim(which, s->boundary < 2 ? second : jst ? with_jst : third);
             which->level[0] = 16;
             which->level[1] = 32;
         }
+    }
+}
+
+/* The same in time: every integrator keeps its order, since what is mapped back keeps its direction. */
+static void add_flow_time(struct list *list)
+{
+    for (const struct solver_integrator *i = solver_integrators(); i->name != NULL; i++) {
+        struct upwind of = {solver_stencil_find("sbp2"), "pFHJ", "hencky", 2, 0};
+        struct verify_mms_case *which = add_upwind(list, "in time, plastic flow, 2D, n = 16", "manufactured-flow", of);
+        (void)snprintf(which->name, sizeof which->name, "%-8s order %d %-20s %-8s", i->name, i->order, "", "motion");
+        set(which, "integrator=%s", i->name);
+        which->level[0] = 4;
+        which->level[1] = 8;
+        for (int v = 0; v < VERIFY_MMS_VARIABLES; v++) {
+            which->asked[v] = i->order - 0.15;
+        }
+        which->in_time = true;
     }
 }
 
@@ -329,7 +350,7 @@ static void add_time(struct list *list)
             set(which, "integrator=%s", i->name);
             which->level[0] = 4;
             which->level[1] = 8;
-            for (int v = 0; v < VERIFY_MMS_VARIABLES; v++) {
+            for (int v = 0; v < VERIFY_MMS_OF_PLASTIC_STRAIN; v++) {
                 which->asked[v] = i->order - 0.15;
             }
             which->in_time = true;
@@ -349,9 +370,11 @@ bool verify_mms_cases(struct verify_mms_case **cases, size_t *count, struct solv
     add_isochoric(&list);
     add_waves(&list);
     add_jst(&list);
-    add_flow(&list);
+    add_flow(&list, false);
+    add_flow(&list, true);
     add_ulsph(&list);
     add_time(&list);
+    add_flow_time(&list);
     *cases = list.cases;
     *count = list.count;
     if (list.full) {

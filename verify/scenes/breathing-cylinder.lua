@@ -3,12 +3,12 @@
 title = "Breathing cylinder"
 source = "A. E. H. Love, A Treatise on the Mathematical Theory of Elasticity"
 
-parameters = { R = 1, mode = 1, U0 = 5e-4 } -- m, -, m
+parameters = { R = 1, mode = 1, U0 = 5e-4, quarter = 0 } -- m, -, m; quarter = 1: a quarter of it, of which errors are the same
 
 -- Particles lie on concentric circles, the outermost being the surface, where each has its share of the circle as its
 -- boundary area vector, along the exact normal: see breathing-sphere.lua.
 dim = 2
-domain = { shape = "disc", centre = {0, 0}, radius = R } -- m
+domain = { shape = "disc", centre = {0, 0}, radius = R, symmetry = quarter == 1 and { X = 0, Y = 0 } or nil } -- m
 n = 32
 levels = {8, 16, 32}
 

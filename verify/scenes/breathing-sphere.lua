@@ -2,14 +2,14 @@
 title = "Breathing sphere"
 source = "H. Lamb, Proc. London Math. Soc. 13 (1882) 189"
 
-parameters = { R = 1, mode = 1, U0 = 5e-4 } -- m, -, m
+parameters = { R = 1, mode = 1, U0 = 5e-4, eighth = 0 } -- m, -, m; eighth = 1: an eighth of it, of which errors are the same
 
 -- Particles lie on concentric spheres, the outermost being the surface. The boundary area vector of each of those on it is
 -- its share of the sphere, the exact solid angle up to half-way lines between particles, along the exact normal. The
 -- shares sum to 4 pi R^2 and the cloud is as symmetric as a cube, so the discrete divergence theorem holds for quadratic
 -- fields: a constant stress gives no force but its tractions, and linear fields are exact up to the surface.
 dim = 3
-domain = { shape = "ball", centre = {0, 0, 0}, radius = R } -- m
+domain = { shape = "ball", centre = {0, 0, 0}, radius = R, symmetry = eighth == 1 and { X = 0, Y = 0, Z = 0 } or nil } -- m
 n = 12
 levels = {4, 8, 12}
 
