@@ -34,7 +34,7 @@ gates = {
 }
 
 view = {
-    field = "plastic_strain", range = {0.1, 0.7}, bands = 12, -- -
+    field = "plastic_strain", range = {0.15, 0.45}, bands = 12, -- -
     direction = dim == 3 and {1, 0.8, 0.6} or {0, 0, 1}, up = dim == 3 and {0, 0, 1} or {0, 1, 0},
     magnify = 1, size = {900, 900},
 }
