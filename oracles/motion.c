@@ -102,7 +102,7 @@ static void displace_drawn(const struct oracle_motion_shape *shape, int dim, con
     static const double share[3] = {1.0, -0.8, -0.3};
     double L = shape->L;
     struct jet f = jet_scale(shape->amplitude / shape->period, t, 0.25 * shape->amplitude);
-    struct jet x[3];
+    struct jet x[3] = {X[0], X[1], X[2]};
     for (int i = 0; i < dim; i++) {
         struct jet power = jet_scale(share[i], f, 1.0);
         struct jet of_place = jet_exp(jet_multiply(power, jet_log(jet_scale(1.0 / L, X[i], 1.5))));

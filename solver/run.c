@@ -179,10 +179,11 @@ static bool build(struct solver_run *run, struct solver_error *error)
                            scene->path, run->scheme->name);
     }
     if (scene->balance && run->scheme->lost == NULL) {
-        return solver_fail(error, SOLVER_BAD_INPUT,
-                           "%s: balance: what the dissipation of the scheme %s takes is not measured; expected scheme = "
-                           "\"upwind\" or \"jst\"",
-                           scene->path, run->scheme->name);
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "%s: balance: what the dissipation of the scheme %s takes is not measured; expected scheme = "
+            "\"upwind\" or \"jst\"",
+            scene->path, run->scheme->name);
     }
     if (!run->scheme->stencil && (scene->domain.cut[0] || scene->domain.cut[1] || scene->domain.cut[2])) {
         return solver_fail(error, SOLVER_BAD_INPUT,

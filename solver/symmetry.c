@@ -46,11 +46,11 @@ static void mark(struct cutting *of)
     for (size_t a = 0; a < count; a++) {
         of->keep[a] = is_above(of, a) ? PART : NOT;
     }
-    for (uint8_t ring = PART; ring < FAR; ring++) {
+    for (int ring = PART; ring < FAR; ring++) {
         for (size_t a = 0; a < count; a++) {
             for (size_t ab = graph->row[a]; of->keep[a] == ring && ab < graph->row[a + 1]; ab++) {
                 uint8_t *of_b = &of->keep[graph->neighbour[ab]];
-                *of_b = *of_b == NOT ? ring + 1 : *of_b;
+                *of_b = *of_b == NOT ? (uint8_t)(ring + 1) : *of_b;
             }
         }
     }
@@ -348,10 +348,10 @@ static bool take_rows(const struct solver_stencil *whole, const struct solver_cl
             size_t pair = order[k].pair;
             kept->graph.neighbour[first + k] = order[k].neighbour;
             memcpy(solver_stencil_C(kept, first + k), solver_stencil_C(whole, pair), (dim + 1) * sizeof(double));
-            if (kept->transposed != NULL) {
+            if (kept->transposed != NULL && whole->transposed != NULL) {
                 memcpy(kept->transposed + (first + k) * dim, whole->transposed + pair * dim, dim * sizeof(double));
             }
-            if (kept->least_squares != NULL) {
+            if (kept->least_squares != NULL && whole->least_squares != NULL) {
                 memcpy(kept->least_squares + (first + k) * dim, whole->least_squares + pair * dim,
                        dim * sizeof(double));
             }
@@ -394,7 +394,7 @@ bool solver_symmetry_keep(struct solver_stencil *whole, const struct solver_clou
 /* A scalar, a padded vector, or a tensor of padded columns: each index across a plane changes the sign. */
 static void reflect(const double *from, double *to, size_t width, size_t lanes, unsigned across)
 {
-    for (size_t i = 0; i < width; i++) {
+    for (size_t i = 0; lanes > 0 && i < width; i++) {
         unsigned turns = width == 1 ? 0 : across >> i % lanes & 1U;
         turns ^= width > lanes ? across >> i / lanes & 1U : 0;
         to[i] = turns != 0 ? -from[i] : from[i];

@@ -98,7 +98,7 @@ void verify_manufactured_divergence(const struct verify_manufactured_body *body,
                                     double dF[3][3][3], double divergence[3])
 {
     int dim = body->of.dim;
-    double A[81], P[9], slope_of_part, slope_of_pressure;
+    double A[81], P[9] = {0}, slope_of_part, slope_of_pressure;
     struct flow flow = {.part = 1};
     body->material->tangent(&body->constants, of->F, A);
     if (verify_manufactured_flows(body)) {
