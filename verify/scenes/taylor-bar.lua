@@ -61,9 +61,9 @@ figures = {
 -- with 4131 particles, at 1/64 beyond n = 4 (3321 particles in all), at 1/512 before n = 3. Of other choices at n = 2 with
 -- upwind, least-squares slopes give 6.04 mm, a support of two spacings 6.23 mm, {p,F,J} and {p,F,H,J} (cfl = 0.3) 6.26 mm,
 -- shorter steps (cfl = 0.2) 6.21 mm.
--- Impacts take 2.7 % at n = 2 and 1.7 % at n = 3, mostly the first one, which stops half a layer of particles at once: h/2L.
--- The balance of all energies closes within 0.4 and 0.2 %; the gap is that of the steps (cfl = 0.2: 0.04 %). JST at n = 2:
--- 0.8 %, with kappa4 = 1/512 1.3 %. The pressure of {p,F} alternates (checkerboard 0.45).
+-- Impacts take 2.7, 1.7 and 1.3 % at n = 2, 3 and 4 with upwind, mostly the first one, which stops half a layer of particles
+-- at once: h/2L. The balance of all energies closes within 0.41, 0.21 and 0.14 %; the gap is that of the steps (n = 2 with
+-- cfl = 0.2: 0.04 %). JST at n = 2: 0.8 %, with kappa4 = 1/512 1.3 %. The pressure of {p,F} alternates (checkerboard 0.45).
 gates = {
     { ["figure drift of the top"] = 1e-12, ["figure drift of the foot"] = 1e-12, ["indicator linear momentum"] = 1e-12 },
     { when = { n = 2, evolved = "pF", scheme = "upwind" },
@@ -82,7 +82,7 @@ gates = {
     { when = { n = 4, evolved = "pF", scheme = "upwind" },
       ["figure radius"] = 0.058, ["rate figure radius"] = 1.3, ["figure radius along y"] = 0.058,
       ["figure radius diagonally"] = 0.058, ["figure energy lost"] = 0.07, ["figure energy rise"] = 1e-12,
-      ["figure energy balance"] = 0.01, ["figure drift of the top"] = 1e-12, ["figure drift of the foot"] = 1e-12,
+      ["figure energy balance"] = 1.6e-3, ["figure drift of the top"] = 1e-12, ["figure drift of the foot"] = 1e-12,
       ["indicator linear momentum"] = 1e-12, ["indicator clumping"] = 0.1 },
 }
 
