@@ -3,7 +3,7 @@
 title = "Breathing cylinder"
 source = "A. E. H. Love, A Treatise on the Mathematical Theory of Elasticity"
 
-parameters = { R = 1, mode = 1, U0 = 5e-4, quarter = 0 } -- m, -, m; quarter = 1: a quarter of it, of which errors are the same
+parameters = { R = 1, mode = 1, U0 = 5e-4, quarter = 0 } -- m, -, m; quarter = 1: that much of it, with the same errors
 
 -- Particles lie on concentric circles, the outermost being the surface, where each has its share of the circle as its
 -- boundary area vector, along the exact normal: see breathing-sphere.lua.

@@ -2,7 +2,7 @@
 title = "Breathing sphere"
 source = "H. Lamb, Proc. London Math. Soc. 13 (1882) 189"
 
-parameters = { R = 1, mode = 1, U0 = 5e-4, eighth = 0 } -- m, -, m; eighth = 1: an eighth of it, of which errors are the same
+parameters = { R = 1, mode = 1, U0 = 5e-4, eighth = 0 } -- m, -, m; eighth = 1: that much of it, with the same errors
 
 -- Particles lie on concentric spheres, the outermost being the surface. The boundary area vector of each of those on it is
 -- its share of the sphere, the exact solid angle up to half-way lines between particles, along the exact normal. The
