@@ -100,6 +100,17 @@ static inline struct jet jet_cos(struct jet a)
     return jet_chain(a, cos(a.value), -sin(a.value), -cos(a.value));
 }
 
+static inline struct jet jet_log(struct jet a)
+{
+    return jet_chain(a, log(a.value), 1.0 / a.value, -1.0 / (a.value * a.value));
+}
+
+static inline struct jet jet_reciprocal(struct jet a)
+{
+    double inverse = 1.0 / a.value;
+    return jet_chain(a, inverse, -inverse * inverse, 2.0 * inverse * inverse * inverse);
+}
+
 static inline struct jet jet_exp(struct jet a)
 {
     return jet_chain(a, exp(a.value), exp(a.value), exp(a.value));

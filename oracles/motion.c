@@ -94,6 +94,29 @@ static void displace_isochoric(const struct oracle_motion_shape *shape, int dim,
     }
 }
 
+/* Along each axis by its own power of where a particle is, lambda_i = (3/2 + X_i / L)^(a_i f), f growing in time: so
+ * ln lambda = a_i f ln(3/2 + X_i / L), whose ratios stay what they are. And it turns about (L/2, L/2). */
+static void displace_drawn(const struct oracle_motion_shape *shape, int dim, const struct jet X[3], struct jet t,
+                           struct jet u[3])
+{
+    static const double share[3] = {1.0, -0.8, -0.3};
+    double L = shape->L;
+    struct jet f = jet_scale(shape->amplitude / shape->period, t, 0.25 * shape->amplitude);
+    struct jet x[3] = {X[0], X[1], X[2]};
+    for (int i = 0; i < dim; i++) {
+        struct jet power = jet_scale(share[i], f, 1.0);
+        struct jet of_place = jet_exp(jet_multiply(power, jet_log(jet_scale(1.0 / L, X[i], 1.5))));
+        struct jet of_end = jet_exp(jet_scale(log(1.5), power, 0.0));
+        x[i] = jet_scale(L, jet_multiply(jet_combine(1.0, of_place, -1.0, of_end), jet_reciprocal(power)), -0.5 * L);
+    }
+    if (dim > 1) {
+        turn(jet_scale(0.3 * shape->amplitude, swing(shape, t, 0.4), 0.0), &x[0], &x[1]);
+    }
+    for (int i = 0; i < dim; i++) {
+        u[i] = jet_combine(1.0, jet_scale(1.0, x[i], 0.5 * L), -1.0, X[i]);
+    }
+}
+
 static const struct oracle_motion motions[] = {
     {.name = "waves",
      .summary = "standing waves along all axes",
@@ -117,6 +140,14 @@ static const struct oracle_motion motions[] = {
      .least_dim = 2,
      .isochoric = true,
      .displace = displace_isochoric},
+    {.name = "drawn",
+     .summary = "drawn out and pressed flat ever further, more at one place than at another, while it turns",
+     .amplitude = "logarithmic strains along the first axis grow from 0.1 and 0.23 by 0.4 and 0.92 in a period",
+     .most = 1.0,
+     .typical = 1.0,
+     .least_dim = 1,
+     .proportional = true,
+     .displace = displace_drawn},
     {.name = NULL},
 };
 

@@ -27,7 +27,8 @@ struct oracle_motion {
     const char *amplitude; /* what the amplitude is */
     double most, typical;  /* largest amplitude at which the body stays whole for any dim, and a usual one */
     int least_dim;
-    bool isochoric; /* det F = 1 everywhere and always */
+    bool isochoric;    /* det F = 1 everywhere and always */
+    bool proportional; /* the logarithmic strain keeps its direction in the material, and grows from t = 0 on */
     /* u of the first dim axes. */
     void (*displace)(const struct oracle_motion_shape *shape, int dim, const struct jet X[3], struct jet t,
                      struct jet u[3]);

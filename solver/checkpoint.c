@@ -23,6 +23,7 @@ static bool keep_place(struct solver_keeper *keeper, struct solver_run *run, str
     return solver_keep(keeper, "time", &run->time, sizeof run->time, error) &&
            solver_keep(keeper, "step", &run->step, sizeof run->step, error) &&
            solver_keep(keeper, "work of loads", &run->external, sizeof run->external, error) &&
+           solver_keep(keeper, "numerical dissipation", &run->numerical, sizeof run->numerical, error) &&
            solver_keep(keeper, "seconds", &run->seconds, sizeof run->seconds, error);
 }
 

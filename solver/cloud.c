@@ -2,6 +2,7 @@
 
 #include "solver/cloud_internal.h"
 #include "solver/memory.h"
+#include "solver/symmetry.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -128,5 +129,6 @@ void solver_cloud_free(struct solver_cloud *cloud)
     free(cloud->image);
     free(cloud->cell);
     free(cloud->quality);
+    solver_symmetry_free(cloud->symmetry);
     free(cloud);
 }

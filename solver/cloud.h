@@ -54,6 +54,7 @@ struct solver_cloud {
     uint32_t *site;                       /* [count][dim] lattice indices of each particle; NULL: no lattice */
     uint32_t *image; /* [wall_count] particle of the body of which each particle of a wall is the mirror image;
                         NULL unless asked for */
+    struct solver_symmetry *symmetry; /* NULL, or a part stands for the body, and "walls" are its images (symmetry.h) */
     size_t cell_count;
     uint32_t *cell;                       /* [cell_count][2^dim] particles of each lattice cell, in VTK's order for
                                              line, quad and hexahedron (triangles are quads that name a particle twice): for pictures and
@@ -87,6 +88,11 @@ bool solver_cloud_bodies(int dim, const struct solver_shape *shape, size_t shape
  * (cloud_round.c). SOLVER_BAD_INPUT where radius or length is not a whole number of spacings. */
 bool solver_cloud_round(const struct solver_shape *shape, double spacing, struct solver_cloud **cloud,
                         struct solver_error *error);
+/* Particles whose state is their own: all but the images of a part of a symmetric body. */
+static inline size_t solver_cloud_driven(const struct solver_cloud *cloud)
+{
+    return cloud->symmetry != NULL ? cloud->count - cloud->wall_count : cloud->count;
+}
 void solver_cloud_free(struct solver_cloud *cloud);
 
 #endif

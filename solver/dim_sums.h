@@ -22,6 +22,10 @@ static inline void finish(const struct solver_upwind *work, size_t a, struct sum
         sums.force += load(work->P + a * TENSOR + I * LANES) * work->row_sum[a * DIM + (size_t)I];
     }
     store(work->v_rate + a * LANES, (0.5 * per_V / of_a->rho) * (sums.force + sums.dissipation));
+    if (work->lost != NULL) {
+        work->lost[2 * a] = -0.5 * dot(load(work->v + a * LANES), sums.dissipation);
+        work->lost[2 * a + 1] = sums.volume / (2.0 * of_a->zp);
+    }
     struct tensor G = load_tensor(work->F_rate + a * TENSOR);
     if (work->evolves_J) {
         double compression = work->frozen ? trace(G) : contract(load_tensor(work->cofactor + a * TENSOR), G);

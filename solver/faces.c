@@ -47,7 +47,7 @@ static void set_image(struct solver_constraint *constraint, const struct solver_
     size_t body = cloud->count - cloud->wall_count;
     size_t a = constraint->particle;
     constraint->image = constraint->particle;
-    if (cloud->image != NULL && a >= body) {
+    if (cloud->image != NULL && cloud->symmetry == NULL && a >= body) {
         constraint->image = cloud->image[a - body];
         constraint->parity = __builtin_popcount(cloud->tags[a] >> SOLVER_BEYOND_FACE) % 2 == 1 ? -1.0 : 1.0;
     }
@@ -120,7 +120,10 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
     const struct solver_scene *scene = body->scene;
     const struct solver_cloud *cloud = body->cloud;
     *faces = (struct solver_faces){.dim = cloud->dim, .force_time = NAN};
-    size_t most = geometry->face_point_count + cloud->wall_count;
+    size_t most = cloud->wall_count;
+    for (size_t a = 0; a < cloud->count; a++) {
+        most += (cloud->tags[a] & SOLVER_FACE_BITS) != 0 ? 1 : 0;
+    }
     if (!solver_alloc((void **)&faces->constraint, most, sizeof *faces->constraint, "constraints", error) ||
         !solver_alloc((void **)&faces->load, geometry->face_point_count, sizeof *faces->load, "loads", error) ||
         (solver_scene_has(scene, SOLVER_BODY_FORCE) &&
@@ -224,7 +227,7 @@ static bool ask_body_force(struct solver_faces *faces, const struct solver_body 
     }
     faces->force_time = NAN;
 #pragma omp parallel for schedule(static) if (body->scene->drive != NULL)
-    for (size_t a = 0; a < cloud->count; a++) {
+    for (size_t a = 0; a < solver_cloud_driven(cloud); a++) {
         double X[3];
         struct solver_error why;
         place(cloud, a, X);
@@ -248,7 +251,7 @@ static bool add_body_force(struct solver_faces *faces, const struct solver_body 
     if (!ask_body_force(faces, body, t, error)) {
         return false;
     }
-    for (size_t a = 0; a < body->cloud->count; a++) {
+    for (size_t a = 0; a < solver_cloud_driven(body->cloud); a++) {
         const double *force = faces->force + a * dim;
         for (size_t axis = 0; axis < dim; axis++) {
             v_rate[a * lanes + axis] += force[axis] / body->constants[a * body->stride].rho;

@@ -151,41 +151,10 @@ bool solver_graph_build_pairs(const struct solver_cloud *cloud, double radius, e
     return ok;
 }
 
-/* Between two particles in one place there is no direction. */
-static bool are_apart(const struct solver_cloud *cloud, const struct solver_graph *graph, struct solver_error *error)
-{
-    size_t dim = (size_t)cloud->dim;
-    double least = 1e-6 * cloud->spacing;
-    for (size_t a = 0; a < cloud->count; a++) {
-        for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
-            size_t b = graph->neighbour[ab];
-            double square = 0.0;
-            for (size_t axis = 0; axis < dim; axis++) {
-                double d = cloud->X[b * dim + axis] - cloud->X[a * dim + axis];
-                square += d * d;
-            }
-            if (square < least * least) {
-                return solver_fail(error, SOLVER_BAD_INPUT,
-                                   "particles %zu and %zu are %.3g m apart, at a spacing of %g m: two in one place; "
-                                   "leave one out",
-                                   a, b, sqrt(square), cloud->spacing);
-            }
-        }
-    }
-    return true;
-}
-
 bool solver_graph_build(const struct solver_cloud *cloud, double radius, struct solver_graph *graph,
                         struct solver_error *error)
 {
-    if (!solver_graph_build_pairs(cloud, radius, SOLVER_PAIRS_WITHIN, graph, error)) {
-        return false;
-    }
-    if (!are_apart(cloud, graph, error)) {
-        solver_graph_free(graph);
-        return false;
-    }
-    return true;
+    return solver_graph_build_pairs(cloud, radius, SOLVER_PAIRS_WITHIN, graph, error);
 }
 
 void solver_graph_free(struct solver_graph *graph)

@@ -28,7 +28,7 @@ bool solver_graph_update(struct solver_graph *graph, const struct solver_points 
 /* The same for a cloud at rest, into a new graph that keeps no cells. */
 bool solver_graph_build_pairs(const struct solver_cloud *cloud, double radius, enum solver_pairs which,
                               struct solver_graph *graph, struct solver_error *error);
-/* Its pairs within bodies. SOLVER_BAD_INPUT where two particles are in one place. */
+/* Its pairs within bodies. */
 bool solver_graph_build(const struct solver_cloud *cloud, double radius, struct solver_graph *graph,
                         struct solver_error *error);
 void solver_graph_free(struct solver_graph *graph);

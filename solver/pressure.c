@@ -2,6 +2,7 @@
 #include "solver/pressure.h"
 
 #include "solver/faces.h"
+#include "solver/keep.h"
 #include "solver/memory.h"
 #include "solver/pieces.h"
 #include "solver/pressure_solvers.h"
@@ -269,4 +270,11 @@ bool solver_pressure_correct(struct solver_pressure *of, const struct solver_sta
     }
     take_over(of, state, &integrator->stage[stage], increment);
     return true;
+}
+
+bool solver_pressure_keep(struct solver_pressure *of, struct solver_keeper *keeper, struct solver_error *error)
+{
+    size_t size = SOLVER_STAGES * of->body->cloud->count * sizeof *of->increment;
+    return solver_keep(keeper, "increments of the pressure", of->increment, size, error) &&
+           solver_keep(keeper, "iterations of the pressure", &of->iterations, sizeof of->iterations, error);
 }

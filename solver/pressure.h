@@ -71,6 +71,8 @@ struct solver_pressure {
     size_t doubles;                       /* in all arrays */
 };
 
+struct solver_keeper;
+
 struct solver_pressure_loops {
     size_t lanes;
     /* weight, of the present geometry. */
@@ -113,5 +115,8 @@ void solver_pressure_begin(const struct solver_pressure *of);
 bool solver_pressure_correct(struct solver_pressure *of, const struct solver_state *state,
                              const struct solver_integrator *integrator, int stage, double t, double dt,
                              struct solver_error *error);
+
+/* For checkpoints (keep.h). */
+bool solver_pressure_keep(struct solver_pressure *of, struct solver_keeper *keeper, struct solver_error *error);
 
 #endif

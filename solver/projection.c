@@ -56,7 +56,8 @@ bool solver_projection_create(const struct solver_body *body, const struct solve
                       : scheme == NULL || scheme->claims.angular == NULL ? "the scheme does not know it"
                       : model == NULL || model->in[scene->dim - 1]->linear
                           ? "a material with linear kinematics has forces where particles were, not where they are"
-                      : body->cloud->body != NULL ? "one body's would be kept by forces on the others"
+                      : body->cloud->body != NULL     ? "one body's would be kept by forces on the others"
+                      : body->cloud->symmetry != NULL ? "planes of symmetry hold the body"
                       : body->cloud->wall_count > 0
                           ? "particles of walls are not of the body; expected lattice = \"nodes\""
                           : NULL;

@@ -79,6 +79,10 @@ static void all_columns(struct columns *at, const double *total_energy)
         column(at, "iterations", "-", &totals->iterations, stride);
         column(at, "volume_change", "-", &totals->volume_change, stride);
     }
+    if (at->history != NULL && at->history->balanced) {
+        column(at, "numerical_dissipation", energy_unit[dim], &totals->numerical, stride);
+        column(at, "impact_loss", energy_unit[dim], &totals->impact, stride);
+    }
     if (at->history != NULL && at->history->walled) {
         components(at, "wall_impulse", momentum_unit[dim], totals->wall, stride, 0, dim);
     }

@@ -2,6 +2,7 @@
 
 #include "solver/memory.h"
 #include "solver/run_internal.h"
+#include "solver/symmetry.h"
 
 #include <math.h>
 #include <omp.h>
@@ -54,7 +55,10 @@ static bool set_constants(struct solver_run *run, struct solver_error *error)
     }
     run->constants[0] = solver_material_constants(scene->E, scene->nu, scene->rho);
     for (size_t a = 0; composite && a < count; a++) {
-        if (!constants_at(run, a, &run->constants[a], error)) {
+        size_t driven = solver_cloud_driven(run->cloud);
+        if (a >= driven) { /* an image */
+            run->constants[a] = run->constants[run->cloud->image[a - driven]];
+        } else if (!constants_at(run, a, &run->constants[a], error)) {
             return false;
         }
     }
@@ -72,7 +76,7 @@ static bool start_motion(struct solver_run *run, struct solver_error *error)
     const struct solver_scene *scene = run->scene;
     size_t dim = (size_t)scene->dim;
     size_t lanes = run->state.lanes;
-    for (size_t a = 0; a < run->cloud->count; a++) {
+    for (size_t a = 0; a < solver_cloud_driven(run->cloud); a++) {
         double X[3] = {0};
         double value[3] = {0};
         memcpy(X, run->cloud->X + a * dim, dim * sizeof *X);
@@ -91,6 +95,9 @@ static bool start_motion(struct solver_run *run, struct solver_error *error)
         for (size_t i = 0; i < dim; i++) {
             run->state.v[a * lanes + i] = value[i];
         }
+    }
+    if (run->cloud->symmetry != NULL) {
+        solver_symmetry_reflect(run->cloud, &run->state);
     }
     return true;
 }
@@ -139,6 +146,19 @@ static bool build(struct solver_run *run, struct solver_error *error)
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: material.yield_stress: the scheme %s knows no plastic flow",
                            scene->path, run->scheme->name);
     }
+    if (scene->balance && run->scheme->lost == NULL) {
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "%s: balance: what the dissipation of the scheme %s takes is not measured; expected scheme = "
+            "\"upwind\" or \"jst\"",
+            scene->path, run->scheme->name);
+    }
+    if (!run->scheme->stencil && (scene->domain.cut[0] || scene->domain.cut[1] || scene->domain.cut[2])) {
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "%s: domain.symmetry: images are neighbours in a stencil, and the scheme %s has none; "
+                           "expected scheme = \"upwind\" or \"jst\"",
+                           scene->path, run->scheme->name);
+    }
     if (!solver_run_cloud(run, error) || !set_constants(run, error)) {
         return false;
     }
@@ -146,6 +166,10 @@ static bool build(struct solver_run *run, struct solver_error *error)
     omp_set_num_threads(run->threads);
     if (!run->scheme->create(&run->body, &run->system, error)) {
         return false;
+    }
+    if (run->cloud->symmetry != NULL) {
+        solver_cloud_free(run->cloud->symmetry->whole);
+        run->cloud->symmetry->whole = NULL;
     }
     struct solver_geometry geometry = run->scheme->geometry(run->system);
     size_t rows = run->scheme->fields(run->system, table);
@@ -211,7 +235,7 @@ void solver_run_free(struct solver_run *run)
 struct solver_facts solver_run_facts(const struct solver_run *run)
 {
     struct solver_geometry geometry = run->scheme->geometry(run->system);
-    double count = (double)run->cloud->count;
+    double count = (double)run->cloud->count; /* images take memory as particles do */
     double passes = geometry.passes;
     double state = solver_state_bytes_per_particle(&run->state, true);
     double fields = solver_state_bytes_per_particle(&run->state, false);
@@ -226,7 +250,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         mass += geometry.V[a] * solver_run_density(run, a);
     }
     return (struct solver_facts){
-        .particles = run->cloud->count,
+        .particles = solver_cloud_driven(run->cloud),
         .pairs = geometry.pairs,
         .steps = run->step,
         .spacing = run->cloud->spacing,

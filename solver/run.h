@@ -42,7 +42,9 @@ struct solver_totals {
     double external;        /* work of tractions and body forces since the start [J] */
     double iterations;      /* of the pressure since the start; 0 where it is not solved for */
     double volume_change;   /* largest |J - 1| of a particle; 0 where the pressure is not solved for */
-    double wall[3];         /* impulse on the rigid wall since the start [N s]; 0 where there is none */
+    double numerical; /* taken by the scheme's dissipation since the start [J]; 0 unless the scene's balance asks */
+    double impact;    /* taken by impacts on the rigid wall since the start [J]; 0 unless the scene's balance asks */
+    double wall[3];   /* impulse on the rigid wall since the start [N s]; 0 where there is none */
 };
 
 /* Time history: one row per recorded time. */
@@ -52,6 +54,8 @@ struct solver_history {
     bool flows;                   /* the material flows plastically: totals->plastic tells something */
     bool incompressible;          /* the pressure is solved for: iterations and volume_change tell something */
     bool walled;                  /* there is a rigid wall: totals->wall tells something */
+    bool balanced;                /* totals->numerical and impact tell something */
+    bool mirrored[3];             /* a plane of symmetry lies across that axis, and takes the momentum along it */
     size_t probe_count;
     char (*probe_name)[64]; /* [probe_count] */
     double (*probe_X)[3];   /* [probe_count] where the probed particle lies [m] */

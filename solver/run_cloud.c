@@ -2,6 +2,7 @@
 #include "solver/run_internal.h"
 #include "solver/solid.h"
 #include "solver/stl.h"
+#include "solver/symmetry.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -76,6 +77,10 @@ bool solver_run_cloud(struct solver_run *run, struct solver_error *error)
                 : scene->domain.kind == SOLVER_SHAPE_STL
                     ? make_stl(scene, spacing, &run->cloud, error)
                     : solver_cloud_round(&scene->domain, spacing, &run->cloud, error);
+    const bool *cut = scene->domain.cut;
+    if (made && (cut[0] || cut[1] || cut[2])) {
+        made = solver_symmetry_cut(run->cloud, &scene->domain, scene->support * spacing, &run->cloud, error);
+    }
     if (made) {
         run->shown = *run->cloud;
         run->shown.count -= run->cloud->wall_count;

@@ -24,7 +24,7 @@ struct solver_run {
     struct solver_wall wall;
     struct solver_projection projection;
     struct solver_state state;
-    double time, external; /* [s], [J] */
+    double time, external, numerical; /* [s]; [J], the last where the scene's balance asks */
     size_t step;
     int threads;
     double setup_seconds, seconds;

@@ -222,6 +222,11 @@ static bool start_history(struct solver_run *run, struct solver_error *error)
     history->incompressible = run->scheme->iterations != NULL && !isnan(run->scheme->iterations(run->system));
     history->walled = run->wall.count > 0;
     history->body_count = run->cloud->body != NULL ? run->scene->shape_count : 1;
+    history->balanced = run->scene->balance;
+    for (int axis = 0; axis < 3; axis++) {
+        const enum solver_face_kind *face = run->scene->face + 2 * axis;
+        history->mirrored[axis] = face[0] == SOLVER_SYMMETRIC || face[1] == SOLVER_SYMMETRIC;
+    }
     if (!solver_alloc((void **)&history->probe_name, history->probe_count, sizeof *history->probe_name, "probes",
                       error) ||
         !solver_alloc((void **)&history->probe_X, history->probe_count, sizeof *history->probe_X, "probes", error)) {
@@ -243,7 +248,8 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
     size_t dim = (size_t)run->cloud->dim;
     size_t lanes = run->state.lanes;
     const double *V = run->scheme->geometry(run->system).V;
-    struct solver_totals totals = {.time = run->time, .external = run->external};
+    struct solver_totals totals = {.time = run->time, .external = run->external, .numerical = run->numerical};
+    totals.impact = run->scene->balance ? run->wall.taken : 0.0;
     memcpy(totals.wall, run->wall.impulse, sizeof totals.wall);
     for (size_t a = 0; a < run->shown.count; a++) { /* one order of summation, whatever the threads */
         add_particle(run, a, V[a], &totals);

@@ -1,6 +1,7 @@
 /* A run in time: rates, stages, steps, and the checks that stop it. */
 #include "solver/pieces.h"
 #include "solver/run_internal.h"
+#include "solver/symmetry.h"
 
 #include <math.h>
 #include <omp.h>
@@ -99,13 +100,31 @@ static void update_slice(const struct solver_state *state, const struct solver_s
     }
 }
 
-void solver_run_refresh(struct solver_run *run)
+/* What follows from the state of particles from `first` on. */
+static void refresh_from(struct solver_run *run, size_t first)
 {
-    size_t count = run->cloud->count;
+    size_t count = run->cloud->count - first;
 #pragma omp parallel for schedule(static)
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
         struct solver_piece at = solver_piece_at(piece, count);
-        run->scheme->refresh(run->system, at.begin, at.end);
+        run->scheme->refresh(run->system, first + at.begin, first + at.end);
+    }
+}
+
+void solver_run_refresh(struct solver_run *run)
+{
+    if (run->cloud->symmetry != NULL) {
+        solver_symmetry_reflect(run->cloud, &run->state);
+    }
+    refresh_from(run, 0);
+}
+
+/* The state of images, of which nothing is evolved, and what follows from it. */
+static void reflect(struct solver_run *run)
+{
+    if (run->cloud->symmetry != NULL) {
+        solver_symmetry_reflect(run->cloud, &run->state);
+        refresh_from(run, solver_cloud_driven(run->cloud));
     }
 }
 
@@ -114,9 +133,10 @@ static bool update(struct solver_run *run, const struct solver_stage *stage, dou
                    struct solver_error *error)
 {
     struct solver_state *state = &run->state;
+    size_t count = solver_cloud_driven(run->cloud);
 #pragma omp parallel for schedule(static)
-    for (size_t piece = 0; piece < solver_pieces(state->count); piece++) {
-        struct solver_piece at = solver_piece_at(piece, state->count);
+    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
+        struct solver_piece at = solver_piece_at(piece, count);
         for (size_t f = 0; f < state->field_count && state->field[f].evolved; f++) {
             size_t width = state->field[f].width;
             size_t offset = state->field[f].offset;
@@ -156,16 +176,24 @@ static void say_when(const struct solver_run *run, double dt, struct solver_erro
     }
 }
 
-/* All stages of a step; *work becomes that of the loads. After a failure the state is that of the start. */
-static bool stages(struct solver_run *run, double dt, double *work, struct solver_error *error)
+/* Work over a step [J]. */
+struct work {
+    double external, numerical; /* of the loads; taken by the scheme's dissipation, where the scene's balance asks */
+};
+
+/* All stages of a step. After a failure the state is that of the start. */
+static bool stages(struct solver_run *run, double dt, struct work *work, struct solver_error *error)
 {
     const struct solver_integrator *integrator = run->integrator;
-    *work = 0.0;
+    *work = (struct work){.external = 0.0};
     for (int s = 0; s < integrator->stages; s++) {
         const struct solver_stage *stage = &integrator->stage[s];
         double next = s + 1 < integrator->stages ? integrator->stage[s + 1].time : 1.0;
         double power;
         bool known = evaluate(run, s, dt, &power, error);
+        if (known && run->scene->balance) {
+            work->numerical += stage->weight * dt * run->scheme->lost(run->system);
+        }
         if (!known || !update(run, stage, run->time + next * dt, dt, error) ||
             !correct(run, s, run->time + next * dt, dt, error)) {
             if (known || s > 0) { /* else there is nothing to take back, and no start of this step yet */
@@ -174,7 +202,8 @@ static bool stages(struct solver_run *run, double dt, double *work, struct solve
             return false;
         }
         solver_wall_stop(&run->wall, &run->state, integrator, s);
-        *work += stage->weight * dt * power;
+        reflect(run);
+        work->external += stage->weight * dt * power;
     }
     return true;
 }
@@ -182,11 +211,14 @@ static bool stages(struct solver_run *run, double dt, double *work, struct solve
 static bool step(struct solver_run *run, double dt, struct solver_error *error)
 {
     double before = run->time;
-    double work;
+    struct work work;
     if (run->scheme->prepare != NULL && !run->scheme->prepare(run->system, dt, error)) {
         return false;
     }
     solver_wall_begin(&run->wall, &run->state, dt);
+    if (run->wall.count > 0 && run->cloud->symmetry != NULL) {
+        solver_symmetry_reflect(run->cloud, &run->state);
+    }
     if (!stages(run, dt, &work, error)) {
         say_when(run, dt, error);
         return false;
@@ -194,8 +226,9 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
     run->time += dt;
     run->step++;
     if (solver_run_check(run, error)) {
-        run->external += work;
-        solver_wall_end(&run->wall);
+        run->external += work.external;
+        run->numerical += work.numerical;
+        solver_wall_end(&run->wall, &run->state);
         return true;
     }
     take_back(run);

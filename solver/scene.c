@@ -194,7 +194,6 @@ static int read_scene(lua_State *L)
     check_flow(L, scene);
     check_jst(L, scene);
     check_rigid_wall(L, scene);
-    scene_read_symmetry(L, scene);
     scene_read_bodies(L, scene);
     scene_read_die(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)

@@ -272,6 +272,7 @@ struct solver_scene {
     size_t snapshot_count;
     double snapshot[SOLVER_SNAPSHOTS]; /* [s] increasing, in (0, t_end]: a study's run stops there and is compared */
     int history;                       /* rows of the time history over t_end */
+    bool balance;                      /* what numerical dissipation and a rigid wall take is measured */
     char precision[SOLVER_NAME];       /* "double" */
     int threads;                       /* 0: as many as there are cores and the work is worth */
 

@@ -201,6 +201,7 @@ static void check_domain(lua_State *L, struct solver_scene *scene)
         check_solid(L, scene);
     else
         check_round(L, scene);
+    scene_read_symmetry(L, scene);
     if (scene->reference_length == 0) /* not given */
         scene->reference_length = box ? scene->upper[0] - scene->lower[0] : scene->domain.outer;
 }
@@ -225,6 +226,8 @@ void scene_read_bodies(lua_State *L, struct solver_scene *scene)
 static bool has_face(const struct solver_scene *scene, int face)
 {
     enum solver_shape_kind shape = scene->domain.kind;
+    if (face < SOLVER_SURFACE && face % 2 == 0 && scene->domain.cut[face / 2])
+        return true;
     return shape == SOLVER_SHAPE_BOX        ? face < SOLVER_SURFACE
            : solver_shape_in_box(shape)     ? true
            : shape == SOLVER_SHAPE_CYLINDER ? face >= 4

@@ -16,6 +16,7 @@ enum scene_kind {
     SCENE_TEXT,       /* char[SOLVER_TEXT] */
     SCENE_WORD,       /* char[SOLVER_NAME], out of `words` */
     SCENE_INDEX,      /* int: place within `words` */
+    SCENE_FLAG,       /* bool */
     SCENE_NUMBER,     /* double */
     SCENE_INTEGER,    /* int */
     SCENE_SEED,       /* uint64_t */
@@ -133,7 +134,7 @@ bool scene_push_table(lua_State *L, const char *path, const char *expected);
 /* Length of the list on top of the stack; entries under names are refused unless `named_too`. */
 size_t scene_list_length(lua_State *L, const char *key, size_t limit, bool named_too);
 void scene_read_plain(lua_State *L, struct solver_scene *scene);
-/* Planes of symmetry: they cut the domain, whose plain keys are there; then they hold its lower faces. */
+/* Planes of symmetry: they cut the domain, which is there; then, once faces are there, they hold its lower ones. */
 void scene_read_symmetry(lua_State *L, struct solver_scene *scene);
 void scene_hold_symmetry(lua_State *L, struct solver_scene *scene);
 /* Domain or bodies; the plain keys are there. */

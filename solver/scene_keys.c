@@ -38,8 +38,8 @@ X("domain.distance", FORMULA, SOLVER_DISTANCE, 0, 0, 0, "", OPTIONAL, "function(
 X("domain.file", TEXT, AT(domain_file), 0, 0, SOLVER_TEXT, "", OPTIONAL, "path, relative to the scene's folder",           \
   "closed surface of triangles, a binary or ASCII STL file")                                                            \
 X("domain.scale", NUMBER, AT(domain_scale), ABOVE_ZERO, DBL_MAX, 0, "", "1", "number > 0 [m]", "of the lengths in that file") \
-X("domain.symmetry", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ X = number, ... } [m], of X, Y and Z",                      \
-  "planes of symmetry: the part above is modelled, and X0, Y0 or Z0 is symmetric; of a box, solid or stl")                  \
+X("domain.symmetry", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ X = place, ... }",                      \
+  "planes of symmetry [m], through the centre of a round domain: the part above is modelled, X0, Y0 or Z0 symmetric")                  \
 X("bodies", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                       \
   "list of up to 16 { shape = \"box\", lower = { ... }, upper = { ... } } or { shape = \"ring\", centre = {x, y}, inner = r, outer = R }", \
   "several bodies, in place of domain")                                                                                \
@@ -159,6 +159,8 @@ X("snapshots", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasin
   "times at which a study compares the state with the oracle, besides t_end")                                          \
 X("history", INTEGER, AT(history), 1, 100000, 0, "", "200", "whole number in [1, 100000]",                             \
   "rows of the time history over t_end, if there are as many steps")                                                   \
+X("balance", FLAG, AT(balance), 0, 0, 0, "", "false", "true or false",                                                 \
+  "the energy that numerical dissipation and a rigid wall take is measured, and a column of the history")              \
 X("precision", WORD, AT(precision), 0, 0, 0, "double | mixed", "double", "one of double", "floating-point precision")  \
 X("threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
   "threads; 0: as many as there are cores and the work is worth")                                                     \

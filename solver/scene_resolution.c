@@ -67,13 +67,14 @@ static double ring_particles(lua_State *L, const struct solver_scene *scene, con
 static double round_particles(lua_State *L, const struct solver_scene *scene, const char *key, double n)
 {
     const struct solver_shape *shape = &scene->domain;
-    double along = 2 * whole_spacings(L, scene, key, n, "the domain's radius", shape->outer) + 1;
-    double depth =
-        shape->kind == SOLVER_SHAPE_DISC ? 1
-        : shape->kind == SOLVER_SHAPE_BALL
-            ? along
-            : spacings_within(L, scene, key, n, "the domain's length", shape->length, SOLVER_LAYERS_GIVE) + 1;
-    return along * along * depth;
+    double shells = whole_spacings(L, scene, key, n, "the domain's radius", shape->outer);
+    double particles =
+        shape->kind == SOLVER_SHAPE_CYLINDER
+            ? spacings_within(L, scene, key, n, "the domain's length", shape->length, SOLVER_LAYERS_GIVE) + 1
+            : 1;
+    for (int axis = 0; axis < (shape->kind == SOLVER_SHAPE_BALL ? 3 : 2); axis++)
+        particles *= (shape->cut[axis] ? 1 : 2) * shells + 1;
+    return particles;
 }
 
 static double count_particles(lua_State *L, const struct solver_scene *scene, const char *key, double n)

@@ -90,6 +90,11 @@ static void read_value(lua_State *L, struct solver_scene *scene, int k)
     case SCENE_INDEX:
         *(int *)place = read_word(L, key, rule, -1);
         break;
+    case SCENE_FLAG:
+        if (!lua_isboolean(L, -1))
+            scene_refuse_value(L, key->key, key->expects, -1);
+        *(bool *)place = lua_toboolean(L, -1);
+        break;
     case SCENE_NUMBER:
         *(double *)place = scene_read_number(L, key->key, -1, rule->low, rule->high, key->expects);
         break;
@@ -216,6 +221,8 @@ bool solver_scene_text(const struct solver_scene *scene, const char *path, char 
         return (size_t)snprintf(out, size, "%s", (const char *)place) < size;
     if (rule && rule->kind == SCENE_SEED)
         return (size_t)snprintf(out, size, "%llu", (unsigned long long)*(const uint64_t *)place) < size;
+    if (rule && rule->kind == SCENE_FLAG)
+        return (size_t)snprintf(out, size, "%s", *(const bool *)place ? "true" : "false") < size;
     if (rule && rule->kind == SCENE_INDEX) {
         char word[SOLVER_NAME];
         scene_word_at(rule->words, *(const int *)place, word, sizeof word);

@@ -100,6 +100,9 @@ struct solver_scheme {
     void (*look)(const void *system, size_t particle, struct solver_point *point);
     /* Strain energy per unit reference volume [J/m^3]. */
     double (*energy)(const void *system, size_t particle);
+    /* Power [W] that the dissipation of the rates evaluated last takes, where the scene's balance asks; NULL: it is not
+     * measured. */
+    double (*lost)(const void *system);
     /* Plastic work per unit reference volume since the start [J/m^3]; NULL: the scheme knows no plastic flow. */
     double (*dissipated)(const void *system, size_t particle);
     /* What outlives a step and is not a field, for checkpoints (keep.h); NULL: there is nothing. */

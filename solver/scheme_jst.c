@@ -87,7 +87,10 @@ static bool make_weights(struct system *system, bool harmonic, bool corrected, s
         for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
             double l = sums.scale * weight[ab] - (corrected ? correction(stencil, a, ab, sums.moment) : 0.0);
             system->laplacian[2 * ab] = l;
-            system->laplacian[2 * solver_graph_find(graph, graph->neighbour[ab], a) + 1] = l;
+            size_t ba = solver_graph_find(graph, graph->neighbour[ab], a);
+            if (ba != SIZE_MAX) { /* an image may lack the row */
+                system->laplacian[2 * ba + 1] = l;
+            }
         }
     }
     for (size_t a = 0; done && harmonic && a < stencil->count; a++) {

@@ -5,6 +5,7 @@
 #include "solver/memory.h"
 #include "solver/pieces.h"
 #include "solver/pressure.h"
+#include "solver/symmetry.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -47,12 +48,28 @@ void solver_upwind_destroy(void *of)
     free(system);
 }
 
+/* The stencil of the body's cloud; of a part of a symmetric body that of the whole is made, and reduced. */
+static bool make_stencil(struct solver_upwind_system *system, const struct solver_stencil_builder *builder,
+                         struct solver_error *error)
+{
+    const struct solver_scene *scene = system->body->scene;
+    const struct solver_cloud *part = system->body->cloud;
+    const struct solver_cloud *cloud = part->symmetry != NULL ? part->symmetry->whole : part;
+    bool least_squares = strcmp(scene->reconstruction, "least-squares") == 0;
+    struct solver_stencil **stencil = &system->stencil;
+    if (!solver_stencil_create(builder, cloud, scene->support, stencil, error) ||
+        (least_squares && !solver_stencil_add_least_squares(*stencil, cloud, error))) {
+        return false;
+    }
+    system->residuals = solver_stencil_check(*stencil, cloud);
+    return part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error);
+}
+
 bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error)
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
     const struct solver_material_model *model = solver_material_find(scene->material_model);
-    bool least_squares = strcmp(scene->reconstruction, "least-squares") == 0;
     struct solver_upwind_system *system = NULL;
     if (builder == NULL || model == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: no stencil \"%s\" or material \"%s\"", scene->path,
@@ -63,13 +80,11 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
     }
     system->body = body;
     choose_terms(system, model->in[scene->dim - 1]);
-    if (!solver_stencil_create(builder, body->cloud, scene->support, &system->stencil, error) ||
-        (least_squares && !solver_stencil_add_least_squares(system->stencil, body->cloud, error))) {
+    if (!make_stencil(system, builder, error)) {
         solver_upwind_destroy(system);
         return false;
     }
     bind_stencil(system);
-    system->residuals = solver_stencil_check(system->stencil, body->cloud);
     *out = system;
     return true;
 }
@@ -97,7 +112,7 @@ struct solver_geometry solver_upwind_geometry(const void *of)
     const struct solver_upwind_system *system = of;
     const struct solver_stencil *stencil = system->stencil;
     return (struct solver_geometry){
-        .V = stencil->V,
+        .V = stencil->own != NULL ? stencil->own : stencil->V,
         .face_point = stencil->face_point,
         .face_point_count = stencil->face_point_count,
         .pairs = stencil->pairs,
@@ -131,6 +146,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
         {"grad U'(J)", pressure && slopes ? vector : 0, false, &work->pressure_gradient, NULL, 0},
         {"grad P", work->evolves_J && work->whole_jump && slopes ? dim * tensor : 0, false, &work->P_gradient, NULL, 0},
         {"grad v", slopes && work->least_squares != NULL ? tensor : 0, false, &work->v_gradient, NULL, 0},
+        {"power lost", system->body->scene->balance ? 2 : 0, false, &work->lost, NULL, 0},
         {"plastic flow", remembered, false, &work->flown, NULL, 0},
         {"plastic flow at the start", remembered, false, &work->flown_before, NULL, 0},
     };
@@ -271,6 +287,12 @@ static bool correct(void *of, const struct solver_state *state, const struct sol
         system->loops->stresses(&system->work, at.begin, at.end);
     }
     return true;
+}
+
+static bool keep(void *of, struct solver_keeper *keeper, struct solver_error *error)
+{
+    struct solver_upwind_system *system = of;
+    return system->pressure == NULL || solver_pressure_keep(system->pressure, keeper, error);
 }
 
 /* Iterations of the pressure since the start; NaN where there is none. */
@@ -424,6 +446,40 @@ double solver_upwind_dissipated(const void *of, size_t a)
     return memory != NULL ? solver_hardening_work(system->work.hardening, memory[0]) : 0.0;
 }
 
+/* dW/dJ of particle a, by a central difference: W is smooth, and its error below 1e-9 of it. */
+static double energy_by_J(const struct solver_upwind_system *system, size_t a)
+{
+    const struct solver_upwind *work = &system->work;
+    const struct solver_material_constants *constants = work->constants + a * work->stride;
+    const double *memory = memory_of(work, a);
+    struct solver_point point;
+    double energy[2];
+    measures_of(system, a, &point);
+    double step = 1e-5 * point.J;
+    for (int side = 0; side < 2; side++) {
+        double J = point.J + (side == 0 ? -step : step);
+        energy[side] = memory != NULL ? work->material->flow->energy(constants, point.F, J, memory)
+                                      : work->material->energy(constants, point.F, point.H, J);
+    }
+    return (energy[1] - energy[0]) / (2.0 * step);
+}
+
+double solver_upwind_lost(const void *of)
+{
+    const struct solver_upwind_system *system = of;
+    const struct solver_upwind *work = &system->work;
+    const struct solver_stencil *stencil = system->stencil;
+    double sum = 0.0;
+    for (size_t a = 0; a < solver_cloud_driven(system->body->cloud); a++) { /* in order, whatever the threads */
+        double power = work->lost[2 * a];
+        if (work->evolves_J && work->lost[2 * a + 1] != 0.0) {
+            power -= work->lost[2 * a + 1] * energy_by_J(system, a);
+        }
+        sum += stencil->own != NULL ? power * stencil->own[a] / stencil->V[a] : power;
+    }
+    return sum;
+}
+
 static const struct solver_scheme_choice choices[] = {
     SOLVER_UPWIND_EVOLVED,
     {"incompressible.solver = \"poisson\"",
@@ -443,6 +499,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .geometry = solver_upwind_geometry,
     .fields = solver_upwind_fields,
     .correct = correct,
+    .keep = keep,
     .iterations = iterations,
     SOLVER_UPWIND_SHARED,
 };

@@ -40,6 +40,7 @@ const char *solver_upwind_complaint(const void *of, size_t a);
 void solver_upwind_look(const void *of, size_t a, struct solver_point *point);
 double solver_upwind_energy(const void *of, size_t a);
 double solver_upwind_dissipated(const void *of, size_t a);
+double solver_upwind_lost(const void *of);
 
 /* clang-format off */
 /* Rows of a scheme's choices: the evolved sets. */
@@ -54,6 +55,6 @@ double solver_upwind_dissipated(const void *of, size_t a);
     .deformation = true, .stencil = true, .start = solver_upwind_start, .prepare = solver_upwind_prepare,              \
     .evaluate = solver_upwind_evaluate, .refresh = solver_upwind_refresh, .largest_step = solver_upwind_largest_step,  \
     .first_broken = solver_upwind_first_broken, .complaint = solver_upwind_complaint, .look = solver_upwind_look,      \
-    .energy = solver_upwind_energy, .dissipated = solver_upwind_dissipated
+    .energy = solver_upwind_energy, .dissipated = solver_upwind_dissipated, .lost = solver_upwind_lost
 
 #endif

@@ -25,6 +25,8 @@ struct solver_shape {
     double centre[3];          /* [m] of any other shape */
     double inner, outer;       /* [m] radii; only a ring has an inner one */
     double length;             /* [m] of a cylinder */
+    bool cut[3];               /* across that axis lies a plane of symmetry; what is above it is there */
+    double plane[3];           /* [m] where it lies */
 };
 
 /* Whether a domain is a box, or cut out of one: it has the faces X0 to Z1. */

@@ -56,6 +56,30 @@ const struct solver_stencil_builder *solver_stencil_find(const char *name)
     return NULL;
 }
 
+/* Between two particles in one place there is no direction. */
+static bool are_apart(const struct solver_cloud *cloud, const struct solver_graph *graph, struct solver_error *error)
+{
+    size_t dim = (size_t)cloud->dim;
+    double least = 1e-6 * cloud->spacing;
+    for (size_t a = 0; a < cloud->count; a++) {
+        for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
+            size_t b = graph->neighbour[ab];
+            double square = 0.0;
+            for (size_t axis = 0; axis < dim; axis++) {
+                double d = cloud->X[b * dim + axis] - cloud->X[a * dim + axis];
+                square += d * d;
+            }
+            if (square < least * least) {
+                return solver_fail(error, SOLVER_BAD_INPUT,
+                                   "particles %zu and %zu are %.3g m apart, at a spacing of %g m: two in one place; "
+                                   "leave one out",
+                                   a, b, sqrt(square), cloud->spacing);
+            }
+        }
+    }
+    return true;
+}
+
 bool solver_stencil_reserve(struct solver_stencil *stencil, const struct solver_cloud *cloud,
                             struct solver_error *error)
 {
@@ -85,6 +109,9 @@ static bool finish(struct solver_stencil *stencil, const struct solver_cloud *cl
                    const struct solver_stencil_builder *builder, struct solver_error *error)
 {
     size_t dim = (size_t)stencil->dim;
+    if (!are_apart(cloud, &stencil->graph, error)) {
+        return false;
+    }
     if (!builder->antisymmetric && !solver_alloc((void **)&stencil->transposed, stencil->pairs * dim, sizeof(double),
                                                  "transposed pair vectors", error)) {
         return false;
@@ -155,6 +182,7 @@ void solver_stencil_free(struct solver_stencil *stencil)
     free(stencil->row_sum);
     free(stencil->least_squares);
     free(stencil->V);
+    free(stencil->own);
     free(stencil->face_point);
     free(stencil);
 }
@@ -204,7 +232,8 @@ size_t solver_stencil_bytes(const struct solver_stencil *stencil)
     size_t per_pair = sizeof *stencil->graph.neighbour + (dim + 1) * sizeof(double) +
                       (stencil->transposed != NULL ? dim * sizeof(double) : 0) +
                       (stencil->least_squares != NULL ? dim * sizeof(double) : 0);
-    size_t per_particle = sizeof *stencil->graph.row + (dim + 1) * sizeof(double);
+    size_t per_particle =
+        sizeof *stencil->graph.row + (dim + 1) * sizeof(double) + (stencil->own != NULL ? sizeof(double) : 0);
     return stencil->pairs * per_pair + stencil->count * per_particle +
            stencil->face_point_count * sizeof *stencil->face_point;
 }

@@ -37,6 +37,8 @@ struct solver_upwind {
     double *pressure;             /* [count] U'(J); for the dissipation of J by its jump */
     double *pressure_gradient;    /* vector */
     double *P_gradient;           /* [count][DIM (derivative)] tensors; for the dissipation of J by the jump of P */
+    double *lost;                 /* [count][2] what dissipation takes, as a power over the linear momentum [W], and the
+                                     rate of J times V by it [m^dim/s]; NULL unless asked for */
     double *flown, *flown_before; /* [count][width] what a plastic material remembers (material.h), at the present F,
                                      and at the start of the step */
 };

@@ -194,7 +194,7 @@ void solver_wall_free(struct solver_wall *wall)
 }
 
 /* Brings the velocity of a site to one bound; false if it keeps it. */
-static bool enforce(const struct solver_wall *wall, const struct solver_wall_site *site,
+static bool enforce(const struct solver_wall *wall, struct solver_wall_site *site,
                     const struct solver_wall_bound *bound, double *v, double share, double impulse[3])
 {
     double excess = bound->least;
@@ -210,6 +210,7 @@ static bool enforce(const struct solver_wall *wall, const struct solver_wall_sit
         if (!site->led[i]) {
             double change = excess * bound->normal[i] / free_part;
             v[i] += change;
+            site->given[i] += share * change;
             impulse[i] -= share * site->mass * change;
         }
     }
@@ -221,7 +222,7 @@ static bool enforce(const struct solver_wall *wall, const struct solver_wall_sit
 static void stop(const struct solver_wall *wall, const struct solver_state *state, double share, double impulse[3])
 {
     for (size_t s = 0; s < wall->count; s++) {
-        const struct solver_wall_site *site = &wall->site[s];
+        struct solver_wall_site *site = &wall->site[s];
         double *v = state->v + site->particle * state->lanes;
         bool changed = site->bounds > 0;
         for (int pass = 0; changed && pass < PASSES; pass++) {
@@ -265,8 +266,18 @@ void solver_wall_begin(struct solver_wall *wall, const struct solver_state *stat
     for (size_t s = 0; s < wall->count; s++) {
         struct solver_wall_site *site = &wall->site[s];
         find_bounds(wall, site, state->x + site->particle * state->lanes, dt);
+        memcpy(site->start, state->v + site->particle * state->lanes, wall->dim * sizeof *site->start);
+        memset(site->given, 0, sizeof site->given);
     }
     stop(wall, state, 1.0, wall->impulse);
+    for (size_t s = 0; s < wall->count; s++) {
+        struct solver_wall_site *site = &wall->site[s];
+        for (size_t i = 0; i < wall->dim; i++) {
+            wall->taken -= site->mass * site->given[i] * (site->start[i] + 0.5 * site->given[i]);
+            site->start[i] += site->given[i];
+            site->given[i] = 0.0;
+        }
+    }
     memset(wall->stepping, 0, sizeof wall->stepping);
 }
 
@@ -280,8 +291,15 @@ void solver_wall_stop(struct solver_wall *wall, const struct solver_state *state
     stop(wall, state, share, wall->stepping);
 }
 
-void solver_wall_end(struct solver_wall *wall)
+void solver_wall_end(struct solver_wall *wall, const struct solver_state *state)
 {
+    for (size_t s = 0; s < wall->count; s++) {
+        const struct solver_wall_site *site = &wall->site[s];
+        const double *end = state->v + site->particle * state->lanes;
+        for (size_t i = 0; i < wall->dim; i++) {
+            wall->taken -= site->mass * site->given[i] * 0.5 * (site->start[i] + end[i]);
+        }
+    }
     for (size_t i = 0; i < wall->dim; i++) {
         wall->impulse[i] += wall->stepping[i];
     }
@@ -289,5 +307,7 @@ void solver_wall_end(struct solver_wall *wall)
 
 bool solver_wall_keep(struct solver_wall *wall, struct solver_keeper *keeper, struct solver_error *error)
 {
-    return wall->count == 0 || solver_keep(keeper, "impulse on the wall", wall->impulse, sizeof wall->impulse, error);
+    return wall->count == 0 ||
+           (solver_keep(keeper, "impulse on the wall", wall->impulse, sizeof wall->impulse, error) &&
+            solver_keep(keeper, "energy taken by the wall", &wall->taken, sizeof wall->taken, error));
 }

@@ -18,7 +18,9 @@
  *
  * The impulse [N s] on the wall is exact: what a stage takes enters the velocity at the end of the step with the
  * product of the weights `keep` of the later stages (integrator.h), and is counted so. Impulse and momentum of the body
- * add up to what they were to round-off. */
+ * add up to what they were to round-off. So is the energy that impacts take: what is taken before the first stage
+ * changes the velocity v to v + w and the kinetic energy by m w (v + w/2); the stages change that of a step by m w
+ * times the mean of the velocities at its start and its end, whatever else changes the velocity in between. */
 #ifndef SOLVER_WALL_H
 #define SOLVER_WALL_H
 
@@ -43,6 +45,7 @@ struct solver_wall_site {
     bool led[3]; /* faces hold or move it along this axis */
     size_t bounds;
     struct solver_wall_bound bound[SOLVER_WALL_BOUNDS]; /* [bounds] */
+    double start[3], given[3]; /* [m/s] velocity at the start of the step; what its stages add in the end */
 };
 
 struct solver_wall {
@@ -55,6 +58,7 @@ struct solver_wall {
     double reach;               /* [m] from which on they count */
     double impulse[3];          /* [N s] handed to walls since the start */
     double stepping[3];         /* by the stages of this step, which may yet fail */
+    double taken;               /* [J] of the energy, by impacts since the start */
 };
 
 /* The walls of the body's scene; `geometry` is that of its scheme, `faces` are there. Refuses (SOLVER_BAD_INPUT)
@@ -72,8 +76,8 @@ void solver_wall_begin(struct solver_wall *wall, const struct solver_state *stat
 /* After a stage's update and the constraints of faces. */
 void solver_wall_stop(struct solver_wall *wall, const struct solver_state *state,
                       const struct solver_integrator *integrator, int stage);
-/* Of a step that has not failed: its impulse is final. */
-void solver_wall_end(struct solver_wall *wall);
+/* Of a step that has not failed: its impulse and the energy taken are final. */
+void solver_wall_end(struct solver_wall *wall, const struct solver_state *state);
 /* For checkpoints (keep.h). */
 bool solver_wall_keep(struct solver_wall *wall, struct solver_keeper *keeper, struct solver_error *error);
 

@@ -3,7 +3,7 @@ assay_test(mms-orders LABELS mms gate TIMEOUT 600 CORES ${cores} COMMAND $<TARGE
   --json mms/orders.json)
 assay_test(mms-mutations LABELS mms mustfail TIMEOUT 600 CORES ${cores} COMMAND $<TARGET_FILE:assay> verify --mutations)
 # One scene of each family, as a user runs it.
-foreach(scene manufactured manufactured-isochoric manufactured-waves)
+foreach(scene manufactured manufactured-isochoric manufactured-waves manufactured-flow)
   assay_test(gate-${scene} LABELS mms gate COMMAND $<TARGET_FILE:assay> verify ${scene} --out gates/${scene})
 endforeach()
 assay_test(mms-knows-its-families LABELS unit COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 2

@@ -54,7 +54,7 @@ void verify_indicators_history(const struct solver_history *history, double mass
         double work = now->external - first->external;
         double both[3]; /* of the body and of the wall that it has met */
         for (int axis = 0; axis < 3; axis++) {
-            both[axis] = now->linear[axis] + now->wall[axis];
+            both[axis] = history->mirrored[axis] ? first->linear[axis] : now->linear[axis] + now->wall[axis];
         }
         linear = fmax(linear, distance(both, first->linear));
         angular = fmax(angular, distance(now->angular, first->angular));
@@ -93,14 +93,20 @@ bool verify_supply_is_known(const struct solver_scene *scene)
     return !moved;
 }
 
-/* Nothing from outside acts on a body whose faces are all free and that has no body force. */
+/* Nothing from outside acts on a body whose faces are all free and that has no body force; on planes of symmetry acts
+ * what holds it along their normals. */
 static void forget_what_is_not_conserved(const struct solver_scene *scene, double value[VERIFY_INDICATORS])
 {
+    bool loaded = solver_scene_has(scene, SOLVER_BODY_FORCE), mirrored = false, free[3] = {true, true, true};
     for (int face = 0; face < SOLVER_FACES; face++) {
-        if (scene->face[face] != SOLVER_FREE || solver_scene_has(scene, SOLVER_BODY_FORCE)) {
-            value[VERIFY_LINEAR_MOMENTUM] = value[VERIFY_ANGULAR_MOMENTUM] = NAN;
-        }
+        bool plane = face < SOLVER_SURFACE && scene->face[face] == SOLVER_SYMMETRIC;
+        loaded = loaded || (scene->face[face] != SOLVER_FREE && !plane);
+        mirrored = mirrored || plane;
+        free[plane ? face / 2 : 0] = free[plane ? face / 2 : 0] && !plane;
     }
+    bool any = free[0] || (scene->dim > 1 && free[1]) || (scene->dim > 2 && free[2]);
+    value[VERIFY_LINEAR_MOMENTUM] = loaded || !any ? NAN : value[VERIFY_LINEAR_MOMENTUM];
+    value[VERIFY_ANGULAR_MOMENTUM] = loaded || mirrored ? NAN : value[VERIFY_ANGULAR_MOMENTUM];
     value[VERIFY_ENERGY_GAIN] = verify_supply_is_known(scene) ? value[VERIFY_ENERGY_GAIN] : NAN;
 }
 

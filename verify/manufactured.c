@@ -36,8 +36,8 @@ static void state(const struct oracle *oracle, const double X[3], double t, stru
     double P[9];
     oracle_motion_at(body->of.motion, &body->shape, dim, X, t, &at);
     verify_manufactured_measures(body, at.F, &measures);
-    body->material->stress(&body->constants, measures.F, measures.H, measures.J, P);
-    double normal = dim < 3 ? body->material->stress_normal(&body->constants, measures.F, measures.J) : 0;
+    double normal;
+    verify_manufactured_stress(body, &measures, P, &normal);
     memcpy(out->u, at.u, sizeof out->u);
     memcpy(out->v, at.v, sizeof out->v);
     memcpy(out->F, at.F, sizeof out->F);
@@ -49,26 +49,28 @@ static void state(const struct oracle *oracle, const double X[3], double t, stru
     }
 }
 
+/* Whether bodies of the kind may flow: plastic flow along a fixed direction has a solution in closed form. */
+static bool flows(const struct verify_manufactured *of)
+{
+    return of->motion->proportional && of->model->in[of->dim - 1]->flow != NULL;
+}
+
 static void body_force(const struct oracle *oracle, const double X[3], double t, double value[ORACLE_EXTRAS])
 {
     const struct verify_manufactured_body *body = body_of(oracle);
     int dim = body->of.dim;
     struct oracle_kinematics at;
     struct verify_measures measures;
-    double A[81];
+    double divergence[3];
     oracle_motion_at(body->of.motion, &body->shape, dim, X, t, &at);
     verify_manufactured_measures(body, at.F, &measures);
-    body->material->tangent(&body->constants, measures.F, A);
+    verify_manufactured_divergence(body, &measures, at.dF, divergence);
     for (int i = 0; i < dim; i++) {
-        double divergence = 0;
-        for (int I = 0; I < dim; I++) {
-            for (int j = 0; j < dim; j++) {
-                for (int J = 0; J < dim; J++) {
-                    divergence += A[((i * dim + I) * dim + j) * dim + J] * at.dF[j][J][I];
-                }
-            }
-        }
-        value[VERIFY_BODY_FORCE_EXTRA + i] = body->constants.rho * at.a[i] - divergence;
+        value[VERIFY_BODY_FORCE_EXTRA + i] = body->constants.rho * at.a[i] - divergence[i];
+    }
+    if (flows(&body->of)) {
+        value[VERIFY_BODY_FORCE_EXTRA + dim] =
+            verify_manufactured_plastic_strain(body, verify_manufactured_strain(body, &measures));
     }
 }
 
@@ -83,20 +85,21 @@ static double outside(const struct oracle *oracle, const double X[3])
     return sqrt(square);
 }
 
-static void energy(const struct oracle *oracle, double t, double *kinetic, double *strain)
+void verify_manufactured_energies(const struct oracle *oracle, double t, double *kinetic, double *strain,
+                                  double *plastic)
 {
     const struct verify_manufactured_body *body = body_of(oracle);
     int dim = body->of.dim;
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(QUADRATURE);
     size_t points = 1;
-    *kinetic = *strain = rule != NULL ? 0 : NAN;
+    *kinetic = *strain = *plastic = rule != NULL ? 0 : NAN;
     for (int i = 0; i < dim; i++) {
         points *= QUADRATURE;
     }
     for (size_t point = 0; rule != NULL && point < points; point++) {
         struct oracle_kinematics at;
         struct verify_measures measures;
-        double X[3] = {0}, weight = 1;
+        double X[3] = {0}, weight = 1, flown;
         size_t rest = point;
         for (int i = 0; i < dim; i++, rest /= QUADRATURE) {
             double w;
@@ -107,9 +110,16 @@ static void energy(const struct oracle *oracle, double t, double *kinetic, doubl
         verify_manufactured_measures(body, at.F, &measures);
         double square = at.v[0] * at.v[0] + at.v[1] * at.v[1] + at.v[2] * at.v[2];
         *kinetic += weight * 0.5 * body->constants.rho * square;
-        *strain += weight * body->material->energy(&body->constants, measures.F, measures.H, measures.J);
+        *strain += weight * verify_manufactured_energy(body, &measures, &flown);
+        *plastic += weight * flown;
     }
     gsl_integration_glfixed_table_free(rule);
+}
+
+static void energy(const struct oracle *oracle, double t, double *kinetic, double *strain)
+{
+    double plastic;
+    verify_manufactured_energies(oracle, t, kinetic, strain, &plastic);
 }
 
 static void destroy(struct oracle *oracle)
@@ -130,6 +140,8 @@ static bool create(const struct oracle_kind *kind, const double *value, struct o
         .material = of->model->in[of->dim - 1],
         .shape = {.L = value[0], .period = value[1], .amplitude = value[2]},
         .constants = solver_material_constants(value[3], value[4], value[5]),
+        .yield = flows(of) ? value[6] : 0,
+        .hardening = flows(of) ? value[7] : 0,
     };
     if (value[4] == 0.5 && !of->motion->isochoric) {
         (void)snprintf(why, ORACLE_WHY,
@@ -151,20 +163,15 @@ static bool create(const struct oracle_kind *kind, const double *value, struct o
 struct entry {
     struct verify_manufactured about;
     struct oracle_kind kind;
-    struct oracle_parameter parameter[7];
+    struct oracle_parameter parameter[9];
+    struct oracle_extra extra[5];
     char name[NAME], summary[SUMMARY];
 };
 
-static const struct oracle_extra forces[3][4] = {
-    {{"body_force_x", "N/m^3", "body force per reference volume"}, {.name = NULL}},
-    {{"body_force_x", "N/m^3", "body force per reference volume"},
-     {"body_force_y", "N/m^3", "body force per reference volume"},
-     {.name = NULL}},
-    {{"body_force_x", "N/m^3", "body force per reference volume"},
-     {"body_force_y", "N/m^3", "body force per reference volume"},
-     {"body_force_z", "N/m^3", "body force per reference volume"},
-     {.name = NULL}},
-};
+static const struct oracle_extra forces[3] = {{"body_force_x", "N/m^3", "body force per reference volume"},
+                                              {"body_force_y", "N/m^3", "body force per reference volume"},
+                                              {"body_force_z", "N/m^3", "body force per reference volume"}};
+static const struct oracle_extra plastic_strain = {"plastic_strain", "-", "equivalent plastic strain"};
 
 static void describe(struct entry *entry)
 {
@@ -180,9 +187,17 @@ static void describe(struct entry *entry)
         {"material.E", "Pa", "Young's modulus", 0, INFINITY, true, true, 1},
         {"material.nu", "-", "Poisson's ratio; 0.5 where the motion keeps volumes", -1, 0.5, true, false, 0.3},
         {"material.rho", "kg/m^3", "density", 0, INFINITY, true, true, 1},
+        {"material.yield_stress", "Pa", "yield stress; 0: the body is elastic", 0, INFINITY, false, true, 0.02},
+        {"material.hardening", "Pa", "rise of the yield stress per plastic strain", 0, INFINITY, false, true, 0.5},
         {.name = NULL},
     };
     memcpy(entry->parameter, parameter, sizeof parameter);
+    memcpy(entry->extra, forces, (size_t)dim * sizeof *forces);
+    if (flows(&entry->about)) {
+        entry->extra[dim] = plastic_strain;
+    } else {
+        entry->parameter[6] = (struct oracle_parameter){.name = NULL};
+    }
     entry->kind = (struct oracle_kind){
         .name = entry->name,
         .summary = entry->summary,
@@ -191,7 +206,7 @@ static void describe(struct entry *entry)
         .smoothness = ORACLE_SMOOTH,
         .finite_strain = !model->in[dim - 1]->linear,
         .parameter = entry->parameter,
-        .extra = forces[dim - 1],
+        .extra = entry->extra,
         .create_as = create,
         .about = &entry->about,
         .destroy = destroy,
@@ -243,6 +258,12 @@ const struct oracle_kind *verify_kind_find(const char *name)
 {
     const struct oracle_kind *kind = oracle_find(name);
     return kind != NULL ? kind : verify_manufactured_find(name, NULL, 0);
+}
+
+int verify_plastic_strain_extra(const struct oracle_kind *kind)
+{
+    const struct verify_manufactured *about = kind->about;
+    return verify_is_manufactured(kind) && flows(about) ? VERIFY_BODY_FORCE_EXTRA + about->dim : -1;
 }
 
 bool verify_is_manufactured(const struct oracle_kind *kind)

@@ -15,8 +15,10 @@ const struct oracle_kind *verify_manufactured_find(const char *name, const char 
 /* An oracle of that name: of the oracles' room, or a manufactured one by its whole name. */
 const struct oracle_kind *verify_kind_find(const char *name);
 
-/* The extra scalars of a manufactured kind: the body force along each axis. */
+/* The extra scalars of a manufactured kind: the body force along each axis, and where it flows the plastic strain. */
 enum { VERIFY_BODY_FORCE_EXTRA = 0 };
+/* Index of the plastic strain among them, or -1: the kind knows no plastic flow. */
+int verify_plastic_strain_extra(const struct oracle_kind *kind);
 bool verify_is_manufactured(const struct oracle_kind *kind);
 /* Body force [N/m^3] that the kind needs; 0 where it is not manufactured. */
 void verify_body_force(const struct oracle_kind *kind, const struct oracle *oracle, const double X[3], double t,
@@ -36,6 +38,7 @@ struct verify_manufactured_body {
     const struct solver_material *material;
     struct solver_material_constants constants;
     struct oracle_motion_shape shape;
+    double yield, hardening; /* [Pa] linear; 0: elastic */
 };
 
 /* F [dim][dim] as materials want it, with its cofactor and Jacobian, linearised where the material is. */
@@ -44,6 +47,21 @@ struct verify_measures {
 };
 void verify_manufactured_measures(const struct verify_manufactured_body *body, const double F[9],
                                   struct verify_measures *measures);
+/* Stress [dim][dim] and its component out of the plane or line, strain energy and the work of plastic flow, and the
+ * divergence of the stress, given dF_iI/dX_J: manufactured_flow.c. */
+bool verify_manufactured_flows(const struct verify_manufactured_body *body);
+void verify_manufactured_stress(const struct verify_manufactured_body *body, const struct verify_measures *of,
+                                double *P, double *normal);
+double verify_manufactured_energy(const struct verify_manufactured_body *body, const struct verify_measures *of,
+                                  double *plastic);
+/* Of the body: kinetic and strain energy, and the work that plastic flow has taken [J]. */
+void verify_manufactured_energies(const struct oracle *oracle, double t, double *kinetic, double *strain,
+                                  double *plastic);
+void verify_manufactured_divergence(const struct verify_manufactured_body *body, const struct verify_measures *of,
+                                    double dF[3][3][3], double divergence[3]);
+/* Equivalent strain, and what of it has flown. */
+double verify_manufactured_strain(const struct verify_manufactured_body *body, const struct verify_measures *of);
+double verify_manufactured_plastic_strain(const struct verify_manufactured_body *body, double strain);
 /* The kind's self-check. */
 size_t verify_manufactured_check(const struct oracle_kind *kind, const struct oracle *oracle, struct oracle_check *line,
                                  size_t size);

@@ -163,16 +163,21 @@ static void check_stress(const struct check *check, const double at[4], struct d
     check->kind->state(check->oracle, at, at[3], &state);
     for (int i = 0; i < dim; i++) {
         for (int I = 0; I < dim; I++) {
-            double largest = 0, slope = 0;
-            double step = 1e-2;
+            double largest = 0, slope = 0, step = 1e-2;
+            if (verify_manufactured_flows(body)) { /* W has a kink where flow begins: not to reach so far */
+                struct verify_measures here;
+                verify_manufactured_measures(body, state.F, &here);
+                step = fmin(step, 0.05 * verify_manufactured_strain(body, &here));
+            }
             for (int k = -REACH; k <= REACH; k++) {
-                double F[9];
+                double F[9], plastic;
                 struct verify_measures measures;
                 for (int j = 0; j < 9; j++) {
                     F[j] = state.F[j] + (j == 3 * i + I ? k * step : 0);
                 }
                 verify_manufactured_measures(body, F, &measures);
-                double W = body->material->energy(&body->constants, measures.F, measures.H, measures.J);
+                double W = verify_manufactured_energy(body, &measures, &plastic);
+                W += plastic;
                 slope += k == 0 ? 0 : (k > 0 ? 1 : -1) * weight[(k > 0 ? k : -k) - 1] / step * W;
                 largest = worse(fabs(W), largest);
             }
@@ -185,13 +190,15 @@ static void check_stress(const struct check *check, const double at[4], struct d
 /* The stress out of the plane or line, by the material in three dimensions. */
 static void check_normal(const struct check *check, const double at[4], struct distance *law)
 {
-    const struct verify_manufactured_body *body = check->body;
-    const struct solver_material *whole = body->of.model->in[2];
+    struct verify_manufactured_body whole = *check->body;
+    struct verify_measures measures;
     struct oracle_state state;
-    double H[9], P[9];
+    double P[9], none;
+    whole.of.dim = 3;
+    whole.material = whole.of.model->in[2];
     check->kind->state(check->oracle, at, at[3], &state);
-    double J = oracle_measures(!whole->linear, state.F, H);
-    whole->stress(&body->constants, state.F, H, J, P);
+    verify_manufactured_measures(&whole, state.F, &measures);
+    verify_manufactured_stress(&whole, &measures, P, &none);
     compare(law, state.P, P, 9);
 }
 
@@ -293,10 +300,11 @@ static void check_power(struct check *check)
     struct powers sum = {.size = rule != NULL ? 0 : NAN};
     for (int k = 1; k <= REACH; k++) {
         for (int side = -1; side <= 1; side += 2) {
-            double kinetic, strain;
+            double kinetic, strain, plastic;
+            verify_manufactured_energies(check->oracle, t + side * k * step, &kinetic, &strain, &plastic);
             check->kind->energy(check->oracle, t + side * k * step, &kinetic, &strain);
             gain[0] += side * weight[k - 1] / step * kinetic;
-            gain[1] += side * weight[k - 1] / step * strain;
+            gain[1] += side * weight[k - 1] / step * (strain + plastic);
         }
     }
     if (rule != NULL) {

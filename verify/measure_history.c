@@ -94,3 +94,60 @@ bool verify_iterations(const struct verify_measuring *in, const struct verify_ar
                  : NAN;
     return true;
 }
+
+/* The most kinetic and strain energy there was; SOLVER_BAD_INPUT where the scene keeps no balance. */
+static bool supply_of(const struct verify_measuring *in, double *supply, struct solver_error *error)
+{
+    const struct solver_history *history = in->history;
+    if (!in->scene->balance) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "%s: figures: this one needs balance = true", in->scene->path);
+    }
+    *supply = 0;
+    for (size_t i = 0; i < history->count; i++) {
+        *supply = fmax(*supply, history->totals[i].kinetic + history->totals[i].strain);
+    }
+    return true;
+}
+
+bool verify_energy_balance(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                           struct solver_error *error)
+{
+    const struct solver_history *history = in->history;
+    double supply = 0;
+    (void)argument;
+    if (!supply_of(in, &supply, error)) {
+        return false;
+    }
+    *value = history->count > 0 ? 0 : NAN;
+    for (size_t i = 0; i < history->count; i++) {
+        const struct solver_totals *first = &history->totals[0], *now = &history->totals[i];
+        double there = now->kinetic + now->strain + now->plastic + now->numerical + now->impact - now->external;
+        double gap = fabs(there - first->kinetic - first->strain) / supply;
+        *value = gap <= *value || isnan(*value) ? *value : gap; /* a NaN stays */
+    }
+    return true;
+}
+
+bool verify_numerical_dissipation(const struct verify_measuring *in, const struct verify_argument *argument,
+                                  double *value, struct solver_error *error)
+{
+    double supply = 0;
+    (void)argument;
+    if (!supply_of(in, &supply, error)) {
+        return false;
+    }
+    *value = in->history->count > 0 ? in->history->totals[in->history->count - 1].numerical / supply : NAN;
+    return true;
+}
+
+bool verify_impact_loss(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                        struct solver_error *error)
+{
+    double supply = 0;
+    (void)argument;
+    if (!supply_of(in, &supply, error)) {
+        return false;
+    }
+    *value = in->history->count > 0 ? in->history->totals[in->history->count - 1].impact / supply : NAN;
+    return true;
+}

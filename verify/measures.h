@@ -117,6 +117,15 @@ bool verify_plastic_work(const struct verify_measuring *in, const struct verify_
  * over the plastic work. */
 bool verify_ram_loss(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                      struct solver_error *error);
+/* Largest gap, over time, of all energy that is there or was taken, less the work of loads, over the most there was;
+ * and what the scheme's dissipation, and impacts on a rigid wall, have taken at the end, over that. SOLVER_BAD_INPUT
+ * unless the scene's balance asks for it. */
+bool verify_energy_balance(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                           struct solver_error *error);
+bool verify_numerical_dissipation(const struct verify_measuring *in, const struct verify_argument *argument,
+                                  double *value, struct solver_error *error);
+bool verify_impact_loss(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                        struct solver_error *error);
 
 /* Period [s] of u(t) = a + exp(-d t) (b cos w t + c sin w t), fitted by least squares to `count` rows; NaN where fewer
  * than one and a half periods are there, or such a motion explains less than half of what is there. */

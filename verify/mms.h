@@ -16,7 +16,8 @@ enum verify_mms_variable {
     VERIFY_MMS_OF_F,
     VERIFY_MMS_OF_H,
     VERIFY_MMS_OF_J,
-    VERIFY_MMS_OF_P, /* all components of P, or of the Cauchy stress where the scheme has no P */
+    VERIFY_MMS_OF_P,              /* all components of P, or of the Cauchy stress where the scheme has no P */
+    VERIFY_MMS_OF_PLASTIC_STRAIN, /* where the material flows */
     VERIFY_MMS_VARIABLES
 };
 extern const char *const verify_mms_variable_names[VERIFY_MMS_VARIABLES];

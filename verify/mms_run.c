@@ -1,5 +1,6 @@
 /* One case of the suite of manufactured solutions, run and compared. */
 #include "verify/find.h"
+#include "verify/manufactured.h"
 #include "verify/mms.h"
 #include "verify/simulate.h"
 #include "verify/study.h"
@@ -10,11 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const verify_mms_variable_names[VERIFY_MMS_VARIABLES] = {"p", "x", "F", "H", "J", "P"};
+const char *const verify_mms_variable_names[VERIFY_MMS_VARIABLES] = {"p", "x", "F", "H", "J", "P", "plastic"};
 
 /* Names of the errors they are, and what they are where the scheme knows no deformation gradient. */
-static const char *const errors[VERIFY_MMS_VARIABLES] = {"p", "u", "F", "H", "J", "P_all"};
-static const char *const errors_without_F[VERIFY_MMS_VARIABLES] = {"p", "u", "F", "H", "J", "sigma_all"};
+static const char *const errors[] = {"p", "u", "F", "H", "J", "P_all"};
+static const char *const errors_without_F[] = {"p", "u", "F", "H", "J", "sigma_all"};
 
 static bool open_scene(const struct verify_mms_case *which, int n, double cfl, const char *integrator,
                        struct solver_scene **scene, struct solver_error *error)
@@ -100,6 +101,32 @@ static bool run_once(const struct verify_mms_case *which, int n, double cfl, con
 
 /* --- in space --- */
 
+/* Relative L2 error of the plastic strain; NaN where nothing flows. */
+static bool measure_flow(const struct done *done, const struct verify_truth *truth, double *of,
+                         struct solver_error *error)
+{
+    const struct solver_output *output = &done->output;
+    size_t count = output->cloud->count, dim = (size_t)output->cloud->dim;
+    int extra = verify_plastic_strain_extra(truth->kind);
+    *of = NAN;
+    if (output->plastic_strain == NULL || extra < 0) {
+        return true;
+    }
+    double *exact = calloc(count, sizeof *exact);
+    if (exact == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the plastic strain of %zu particles", count);
+    }
+    for (size_t a = 0; a < count; a++) {
+        double X[3] = {0}, value[ORACLE_EXTRAS] = {0};
+        memcpy(X, output->cloud->X + a * dim, dim * sizeof *X);
+        truth->kind->extras(truth->oracle, X, output->time, value);
+        exact[a] = value[extra];
+    }
+    *of = verify_norms_field(count, 1, output->V, output->plastic_strain, exact).relative_l2;
+    free(exact);
+    return true;
+}
+
 static bool measure(const struct verify_mms_case *which, const struct verify_spoiled_drive *spoiled, int n,
                     double error_of[VERIFY_MMS_VARIABLES], double *h, struct solver_error *error)
 {
@@ -111,7 +138,8 @@ static bool measure(const struct verify_mms_case *which, const struct verify_spo
     if (good && !truth.proven) {
         good = solver_fail(error, SOLVER_BROKE_DOWN, "the oracle %s does not pass its own check", truth.kind->name);
     }
-    for (int i = 0; good && i < VERIFY_MMS_VARIABLES; i++) {
+    good = good && measure_flow(&done, &truth, &error_of[VERIFY_MMS_OF_PLASTIC_STRAIN], error);
+    for (int i = 0; good && i < VERIFY_MMS_OF_PLASTIC_STRAIN; i++) {
         const char *name = done.output.P != NULL ? errors[i] : errors_without_F[i];
         error_of[i] = all[verify_error_find(name)];
         *h = done.facts.spacing;
@@ -145,9 +173,9 @@ static const double LARGEST_CFL = 0.4;
 static double distance(const struct solver_output *a, const struct solver_output *b, enum verify_mms_variable variable)
 {
     size_t dim = (size_t)a->cloud->dim;
-    const double *of_a[] = {a->p, a->u, a->F, a->H, a->J, a->P};
-    const double *of_b[] = {b->p, b->u, b->F, b->H, b->J, b->P};
-    const size_t width[] = {dim, dim, dim * dim, dim * dim, 1, dim * dim};
+    const double *of_a[] = {a->p, a->u, a->F, a->H, a->J, a->P, a->plastic_strain};
+    const double *of_b[] = {b->p, b->u, b->F, b->H, b->J, b->P, b->plastic_strain};
+    const size_t width[] = {dim, dim, dim * dim, dim * dim, 1, dim * dim, 1};
     if (of_a[variable] == NULL) {
         return NAN;
     }

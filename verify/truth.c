@@ -53,10 +53,12 @@ static bool find_kind(const struct solver_scene *scene, const struct oracle_kind
                            "%s: oracle: \"%s\" is of a body of one material, and the scene has material.at",
                            scene->path, scene->oracle);
     }
-    if (*kind != NULL && verify_is_manufactured(*kind) && solver_scene_flows(scene)) {
+    if (*kind != NULL && verify_is_manufactured(*kind) && solver_scene_flows(scene) &&
+        (verify_plastic_strain_extra(*kind) < 0 || scene->hardening.law != SOLVER_HARDENING_LINEAR)) {
         return solver_fail(error, SOLVER_BAD_INPUT,
-                           "%s: oracle: \"%s\" is of an elastic body, and the scene has material.yield_stress",
-                           scene->path, scene->oracle);
+                           "%s: oracle: \"%s\" is of an elastic body%s, and the scene has material.yield_stress",
+                           scene->path, scene->oracle,
+                           verify_plastic_strain_extra(*kind) < 0 ? "" : ", or one that hardens linearly");
     }
     if (*kind == NULL && verify_manufactured_find(scene->oracle, NULL, 0) != NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT,

@@ -35,6 +35,8 @@ declare -A only=(
   [test_solver_wall]="oblique wall"                          # others: every integrator in every dimension
   [test_verify_manufactured]="body force"                    # others: the self-checks of all kinds, by quadrature
   [test_solver_rotation]="cells and their stress through a turn, 2D"     # others: more of the same
+  [test_solver_symmetry]="whatever the terms"                # others: factorised stencils of balls and cylinders
+  [test_solver_balance]="asked for"                          # others: more runs of the same
   [test_oracles_bimaterial_wave]="is the sum over all paths" # the others call it as often as that check does, or more
 )
 

@@ -21,7 +21,8 @@ static struct jet formula(const double at[4])
     }
     struct jet inner = jet_add(jet_multiply(x[0], x[1]), jet_sin(jet_scale(0.7, x[2], 0.1)));
     struct jet outer = jet_exp(jet_combine(0.3, x[3], -0.2, inner));
-    return jet_multiply(jet_cos(inner), jet_add(outer, jet_constant(1.5)));
+    struct jet over = jet_multiply(jet_log(outer), jet_reciprocal(jet_scale(1.0, outer, 2.0)));
+    return jet_add(jet_multiply(jet_cos(inner), jet_add(outer, jet_constant(1.5))), over);
 }
 
 static void jets_hold_derivatives(void)

@@ -67,9 +67,9 @@ static void refuses_impossible_materials(void)
     refused("material.E", -17e6, "-17000000 [Pa]");
     refused("material.rho", 0, "> 0 (density); material.rho = 1100 would do");
     refused("material.rho", -1, "> 0");
-    refused("material.nu", 0.5, "infinitely fast");
-    refused("material.nu", -1, "> -1 and < 0.5");
-    refused("material.nu", 0.7, "> -1 and < 0.5");
+    refused("material.nu", 0.5, "expected A + B + C = 0, got 3");
+    refused("material.nu", -1, "> -1 and <= 0.5");
+    refused("material.nu", 0.7, "> -1 and <= 0.5");
 }
 
 static void refuses_what_overflows(void)

@@ -184,6 +184,9 @@ static void drifts(void)
     verify_indicators_history(&walled, 2, 3, value);
     CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_LINEAR_MOMENTUM], 0.04, 1e-15);
     CU_ASSERT(isnan(value[VERIFY_ANGULAR_MOMENTUM])); /* where the wall pushed is not known */
+    walled.mirrored[1] = true;                        /* 0.4 across a plane of symmetry */
+    verify_indicators_history(&walled, 2, 3, value);
+    CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_LINEAR_MOMENTUM], 0, 1e-15);
     totals[1].wall[0] = 0;
     totals[1].external = totals[2].external = 8; /* what was put in is no gain */
     verify_indicators_history(&history, 2, 3, value);

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PARAMETERS = 6 };
+enum { PARAMETERS = 6, ALL = 8 };
 
 /* L, period, amplitude as a part of the largest, E, nu, rho */
 static const double settings[][PARAMETERS] = {
@@ -16,15 +16,17 @@ static const double settings[][PARAMETERS] = {
     {1e6, 3e7, 1e-3, 1, -0.9, 1e-3},
 };
 
-static void proves_itself(const struct oracle_kind *kind, const double setting[PARAMETERS])
+static void proves_itself(const struct oracle_kind *kind, const double setting[PARAMETERS], bool flows)
 {
-    double value[PARAMETERS];
+    double value[ALL];
     char why[ORACLE_WHY];
     struct oracle *oracle = NULL;
     struct oracle_check line[ORACLE_LAWS];
     size_t count = 0;
-    memcpy(value, setting, sizeof value);
+    memcpy(value, setting, PARAMETERS * sizeof *value);
     value[2] *= kind->parameter[2].upper;
+    value[6] = (flows ? 1e-3 : 0) * value[2] * value[3]; /* yield stress and hardening of what may flow */
+    value[7] = 0.1 * value[3];
     CU_ASSERT_FATAL(oracle_create(kind, value, &oracle, why));
     bool proven = oracle_self_check(kind, oracle, line, &count);
     for (size_t i = 0; i < count; i++) {
@@ -56,7 +58,10 @@ static void every_kind_proves_itself(void)
                 CU_ASSERT_EQUAL(kind->dim, dim);
                 CU_ASSERT(verify_is_manufactured(kind));
                 for (size_t i = 0; i < (dim < 3 ? sizeof settings / sizeof *settings : 1); i++) {
-                    proves_itself(kind, settings[i]);
+                    proves_itself(kind, settings[i], false);
+                    if (verify_plastic_strain_extra(kind) >= 0) {
+                        proves_itself(kind, settings[i], true);
+                    }
                 }
                 kinds++;
             }

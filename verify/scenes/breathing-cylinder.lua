@@ -3,14 +3,15 @@
 title = "Breathing cylinder"
 source = "A. E. H. Love, A Treatise on the Mathematical Theory of Elasticity"
 
-parameters = { R = 1, mode = 1, U0 = 5e-4, cut = 0 } -- m, -, m; 1: a lattice cut by the surface
+parameters = { R = 1, mode = 1, U0 = 5e-4, cut = 0, quarter = 0 } -- m, -, m; cut = 1: a lattice cut by the surface;
+-- quarter = 1: that much of it, with the same errors
 
 -- Particles lie on concentric circles, the outermost being the surface, where each has its share of the circle as its
 -- boundary area vector, along the exact normal: see breathing-sphere.lua. With --set cut=1 they lie on a lattice, those near
 -- the surface moved onto it, and areas are those of a polygon: as accurate, and possible for any shape.
 dim = 2
 if cut == 0 then
-    domain = { shape = "disc", centre = {0, 0}, radius = R } -- m
+    domain = { shape = "disc", centre = {0, 0}, radius = R, symmetry = quarter == 1 and { X = 0, Y = 0 } or nil } -- m
 else -- as a body of any shape
     domain = { shape = "solid", lower = {-1.25 * R, -1.25 * R}, upper = {1.25 * R, 1.25 * R}, -- m
         distance = function(X, Y) return math.sqrt(X * X + Y * Y) - R end }

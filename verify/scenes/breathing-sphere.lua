@@ -2,7 +2,8 @@
 title = "Breathing sphere"
 source = "H. Lamb, Proc. London Math. Soc. 13 (1882) 189"
 
-parameters = { R = 1, mode = 1, U0 = 5e-4, cut = 0 } -- m, -, m; 1: a lattice cut by the surface
+parameters = { R = 1, mode = 1, U0 = 5e-4, cut = 0, eighth = 0 } -- m, -, m; cut = 1: a lattice cut by the surface;
+-- eighth = 1: that much of it, with the same errors
 
 -- Particles lie on concentric spheres, the outermost being the surface. The boundary area vector of each of those on it is
 -- its share of the sphere, the exact solid angle up to half-way lines between particles, along the exact normal. The
@@ -10,7 +11,7 @@ parameters = { R = 1, mode = 1, U0 = 5e-4, cut = 0 } -- m, -, m; 1: a lattice cu
 -- fields: a constant stress gives no force but its tractions, and linear fields are exact up to the surface.
 dim = 3
 if cut == 0 then
-    domain = { shape = "ball", centre = {0, 0, 0}, radius = R } -- m
+    domain = { shape = "ball", centre = {0, 0, 0}, radius = R, symmetry = eighth == 1 and { X = 0, Y = 0, Z = 0 } or nil } -- m
 else -- as a body of any shape
     local edge = 1.25 * R
     domain = { shape = "solid", lower = {-edge, -edge, -edge}, upper = {edge, edge, edge}, -- m
