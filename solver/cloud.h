@@ -2,6 +2,7 @@
 #ifndef SOLVER_CLOUD_H
 #define SOLVER_CLOUD_H
 
+#include "solver/cost.h"
 #include "solver/error.h"
 #include "solver/shape.h"
 
@@ -72,6 +73,7 @@ bool solver_cloud_bodies(int dim, const struct solver_shape *shape, size_t shape
  * (cloud_round.c). SOLVER_BAD_INPUT where radius or length is not a whole number of spacings. */
 bool solver_cloud_round(const struct solver_shape *shape, double spacing, struct solver_cloud **cloud,
                         struct solver_error *error);
+void solver_cloud_arrays(const struct solver_cloud *cloud, struct solver_cost_arrays *arrays);
 void solver_cloud_free(struct solver_cloud *cloud);
 
 #endif

@@ -277,3 +277,29 @@ bool solver_faces_load(struct solver_faces *faces, const struct solver_body *bod
     }
     return faces->force == NULL || add_body_force(faces, body, geometry, t, lanes, v, v_rate, power, error);
 }
+
+void solver_faces_arrays(const struct solver_faces *faces, const struct solver_body *body,
+                         const struct solver_geometry *geometry, struct solver_cost_arrays *arrays)
+{
+    static const char group[] = "faces";
+    size_t most = geometry->face_point_count + body->cloud->wall_count;
+    solver_cost_array(arrays, group, "constraints", faces->constraint, most, sizeof *faces->constraint);
+    solver_cost_array(arrays, group, "loads", faces->load, geometry->face_point_count, sizeof *faces->load);
+    solver_cost_array(arrays, group, "body force", faces->force, body->cloud->count * (size_t)faces->dim,
+                      sizeof *faces->force);
+}
+
+void solver_faces_terms(const struct solver_faces *faces, const struct solver_body *body,
+                        struct solver_cost_terms *terms)
+{
+    double dim = faces->dim;
+    double constrained = 0.0;
+    for (size_t c = 0; c < faces->constraint_count; c++) {
+        bool mirrored = faces->constraint[c].image != faces->constraint[c].particle;
+        constrained += dim * (mirrored ? 4.0 : 2.0);
+    }
+    double of_force = faces->force != NULL ? 5.0 * dim * (double)body->cloud->count : 0.0;
+    solver_cost_term(terms, "faces that hold or move", 0, constrained);
+    solver_cost_term(terms, "tractions", 0, (double)faces->load_count * (2.0 * dim + 1.0 + 7.0 * dim));
+    solver_cost_term(terms, "body force", 0, of_force);
+}

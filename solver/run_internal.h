@@ -47,6 +47,7 @@ static inline double solver_run_density(const struct solver_run *run, size_t a)
 bool solver_run_check(struct solver_run *run, struct solver_error *error);
 /* Appends the present state to the history. */
 bool solver_run_note(struct solver_run *run, struct solver_error *error);
+void solver_run_output_arrays(const struct solver_run *run, struct solver_cost_arrays *arrays);
 void solver_run_output_free(struct solver_run *run);
 
 #endif

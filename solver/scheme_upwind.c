@@ -60,6 +60,7 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
         return false;
     }
     system->body = body;
+    system->size = size;
     choose_terms(system, model->in[scene->dim - 1]);
     if (!solver_stencil_create(builder, body->cloud, scene->support, &system->stencil, error) ||
         (least_squares && !solver_stencil_add_least_squares(system->stencil, body->cloud, error))) {
@@ -90,6 +91,27 @@ struct solver_geometry solver_upwind_geometry(const void *of)
         .passes = 2, /* gradients, rates */
         .residual = fmax(system->residuals.closure, system->residuals.linear),
     };
+}
+
+void solver_upwind_arrays(const void *of, struct solver_cost_arrays *arrays)
+{
+    const struct solver_upwind_system *system = of;
+    solver_stencil_arrays(system->stencil, arrays);
+    solver_cost_array(arrays, "scheme", "itself", system, 1, system->size);
+}
+
+void solver_upwind_terms(const void *of, struct solver_cost_terms *terms)
+{
+    const struct solver_upwind_system *system = of;
+    const struct solver_upwind *work = &system->work;
+    size_t count = system->body->cloud->count;
+    system->loops->gradient_terms(work, count, terms);
+    if (system->terms != NULL) {
+        system->terms(system, terms);
+    } else {
+        system->loops->rate_terms(work, count, terms);
+    }
+    system->loops->particle_terms(work, count, terms);
 }
 
 size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
@@ -377,5 +399,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .destroy = solver_upwind_destroy,
     .geometry = solver_upwind_geometry,
     .fields = solver_upwind_fields,
+    .arrays = solver_upwind_arrays,
+    .terms = solver_upwind_terms,
     SOLVER_UPWIND_SHARED,
 };

@@ -24,6 +24,7 @@ void solver_skin_free(struct solver_skin *skin);
 bool solver_skin_update(struct solver_skin *skin, const double *x, size_t lanes, struct solver_error *error);
 /* Pairs of the list, both ways. */
 size_t solver_skin_pairs(const struct solver_skin *skin);
+void solver_skin_arrays(const struct solver_skin *skin, const char *group, struct solver_cost_arrays *arrays);
 size_t solver_skin_bytes(const struct solver_skin *skin);
 
 #endif

@@ -197,6 +197,22 @@ bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const stru
     return true;
 }
 
+void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_cost_arrays *arrays)
+{
+    static const char group[] = "stencil";
+    size_t dim = (size_t)stencil->dim;
+    solver_graph_arrays(&stencil->graph, group, arrays);
+    solver_cost_array(arrays, group, "pair vectors and areas", stencil->pair, stencil->pairs * (dim + 1),
+                      sizeof(double));
+    solver_cost_array(arrays, group, "transposed", stencil->transposed, stencil->pairs * dim, sizeof(double));
+    solver_cost_array(arrays, group, "least squares", stencil->least_squares, stencil->pairs * dim, sizeof(double));
+    solver_cost_array(arrays, group, "row sums", stencil->row_sum, stencil->count * dim, sizeof(double));
+    solver_cost_array(arrays, group, "volumes", stencil->V, stencil->count, sizeof(double));
+    solver_cost_array(arrays, group, "face points", stencil->face_point, stencil->face_point_count,
+                      sizeof *stencil->face_point);
+    solver_cost_array(arrays, group, "itself", stencil, 1, sizeof *stencil);
+}
+
 size_t solver_stencil_bytes(const struct solver_stencil *stencil)
 {
     size_t dim = (size_t)stencil->dim;

@@ -3,6 +3,7 @@
 #ifndef SOLVER_UPWIND_H
 #define SOLVER_UPWIND_H
 
+#include "solver/cost.h"
 #include "solver/material.h"
 
 #include <stddef.h>
@@ -52,6 +53,10 @@ struct solver_upwind_loops {
     void (*stresses)(const struct solver_upwind *work, size_t begin, size_t end);
     /* First particle in [begin, end) whose state is broken (NaN, or J <= 0), else end. */
     size_t (*first_broken)(const struct solver_upwind *work, size_t begin, size_t end);
+    /* Operations: of the gradients; of the rates; of stresses, checks and the step. */
+    void (*gradient_terms)(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms);
+    void (*rate_terms)(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms);
+    void (*particle_terms)(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms);
     /* H and J of F, linearised for a material with linear kinematics; either may be NULL. */
     void (*measures)(bool linear, size_t begin, size_t end, const double *F, double *H, double *J);
 };

@@ -190,3 +190,15 @@ void solver_wall_end(struct solver_wall *wall)
         wall->impulse[i] += wall->stepping[i];
     }
 }
+
+void solver_wall_arrays(const struct solver_wall *wall, size_t particles, struct solver_cost_arrays *arrays)
+{
+    solver_cost_array(arrays, "wall", "places that may meet it", wall->site, particles, sizeof *wall->site);
+}
+
+void solver_wall_terms(const struct solver_wall *wall, int stages, struct solver_cost_terms *terms)
+{
+    double dim = (double)wall->dim;
+    double stop = 2.0 * dim + 1.0;
+    solver_cost_once(terms, "wall", (double)wall->count * (3.0 * dim + 1.0 + (1.0 + (double)stages) * stop));
+}

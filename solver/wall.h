@@ -41,6 +41,9 @@ struct solver_wall {
  * of it goes where it is led. */
 bool solver_wall_create(const struct solver_body *body, const struct solver_geometry *geometry,
                         const struct solver_faces *faces, struct solver_wall *wall, struct solver_error *error);
+void solver_wall_arrays(const struct solver_wall *wall, size_t particles, struct solver_cost_arrays *arrays);
+/* Where nothing is stopped. */
+void solver_wall_terms(const struct solver_wall *wall, int stages, struct solver_cost_terms *terms);
 void solver_wall_free(struct solver_wall *wall);
 /* Refuses (SOLVER_BAD_INPUT) a body of which a part lies behind the wall. */
 bool solver_wall_check(const struct solver_wall *wall, const struct solver_body *body, const struct solver_state *state,
