@@ -133,6 +133,6 @@ void solver_contact_terms(const struct solver_contact *contact, struct solver_co
         double dim = contact->skin.cloud->dim;
         double pairs = 0.5 * (double)solver_skin_pairs(&contact->skin); /* each is asked once */
         solver_cost_term(terms, "contact: whether particles moved", 0, 3.0 * dim * (double)contact->skin.cloud->count);
-        solver_cost_term(terms, "contact: pairs", 0, pairs * (10.0 * dim + 1.0));
+        solver_cost_term(terms, "contact: pairs", 0, pairs * (9.0 * dim + 1.0));
     }
 }

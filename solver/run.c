@@ -258,6 +258,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .pairs = geometry.pairs,
         .steps = run->step,
         .spacing = run->cloud->spacing,
+        .step = run->scheme->largest_step(run->system),
         .mass = mass,
         .setup_seconds = run->setup_seconds,
         .seconds = run->seconds,

@@ -65,6 +65,7 @@ struct solver_history {
 struct solver_facts {
     size_t particles, pairs, steps;
     double spacing;            /* [m] */
+    double step;               /* [s] the longest that the CFL number allows now */
     double mass;               /* [kg]; per unit thickness in 2D, per unit area in 1D */
     double setup_seconds;      /* cloud and stencil */
     double seconds;            /* time loop alone */
