@@ -36,9 +36,8 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
                          struct solver_faces *faces, struct solver_error *error);
 void solver_faces_free(struct solver_faces *faces);
 
-/* Of a body with so many face points and particles of walls. */
 void solver_faces_arrays(const struct solver_faces *faces, const struct solver_body *body,
-                         const struct solver_geometry *geometry, struct solver_cost_arrays *arrays);
+                         struct solver_cost_arrays *arrays);
 void solver_faces_terms(const struct solver_faces *faces, const struct solver_body *body,
                         struct solver_cost_terms *terms);
 

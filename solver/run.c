@@ -272,7 +272,6 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
 
 void solver_run_cost(const struct solver_run *run, struct solver_cost_arrays *arrays, struct solver_cost_terms *terms)
 {
-    struct solver_geometry geometry = run->scheme->geometry(run->system);
     size_t constants = run->body.stride != 0 ? run->cloud->count : 1;
     int stages = run->integrator->stages;
     arrays->count = 0;
@@ -280,7 +279,7 @@ void solver_run_cost(const struct solver_run *run, struct solver_cost_arrays *ar
     run->scheme->arrays(run->system, arrays);
     solver_cost_array(arrays, "material", run->body.stride != 0 ? "composite constants" : "constants", run->constants,
                       constants, sizeof *run->constants);
-    solver_faces_arrays(&run->faces, &run->body, &geometry, arrays);
+    solver_faces_arrays(&run->faces, &run->body, arrays);
     solver_contact_arrays(&run->contact, arrays);
     solver_wall_arrays(&run->wall, run->cloud->count, arrays);
     solver_projection_arrays(&run->projection, arrays);
