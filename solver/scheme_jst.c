@@ -149,6 +149,10 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
         destroy(system);
         return false;
     }
+    /* the Laplacian was corrected by them; no step reads them */
+    free(system->base.stencil->least_squares);
+    system->base.stencil->least_squares = NULL;
+    system->base.work.least_squares = NULL;
     system->jst.harmonic = scene->jst.kappa2 * dx;
     system->jst.biharmonic = scene->jst.kappa4 * dx * dx * dx;
     system->jst.laplacian = system->laplacian;

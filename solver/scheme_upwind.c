@@ -123,6 +123,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     size_t tensor = dim * vector;
     bool pressure = work->evolves_J && !work->whole_jump && system->rates == NULL;
     bool slopes = work->reconstruct && system->rates == NULL;
+    bool placed = system->rates == NULL && (work->frozen || work->reconstruct || work->evolves_J);
     size_t remembered = work->hardening != NULL ? work->material->flow->width : 0;
     const struct solver_field rows[] = {
         {"v", vector, true, &work->v, &work->v_rate, 0},
@@ -130,7 +131,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
         {"F", tensor, true, &work->F, &work->F_rate, 0},
         {"H", work->evolves_H ? tensor : 0, true, &work->H, &work->H_rate, 0},
         {"J", work->evolves_J ? 1 : 0, true, &work->J, &work->J_rate, 0},
-        {"X", vector, false, &work->X, NULL, 0},
+        {"X", placed ? vector : 0, false, &work->X, NULL, 0},
         {"P", tensor, false, &work->P, NULL, 0},
         {"cof F", work->evolves_J && !work->evolves_H && !work->frozen ? tensor : 0, false, &work->cofactor, NULL, 0},
         {"U'(J)", pressure ? 1 : 0, false, &work->pressure, NULL, 0},
@@ -179,7 +180,9 @@ bool solver_upwind_start(void *of, struct solver_error *error)
         double X[3] = {0};
         double F[9];
         memcpy(X, cloud->X + a * dim, dim * sizeof *X);
-        memcpy(work->X + a * lanes, X, dim * sizeof *X);
+        if (work->X != NULL) {
+            memcpy(work->X + a * lanes, X, dim * sizeof *X);
+        }
         if (!solver_scene_has(scene, SOLVER_INITIAL_F)) {
             discrete_F(system, a, F);
         } else if (!solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {

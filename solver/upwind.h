@@ -31,7 +31,7 @@ struct solver_upwind {
      * is continuous where materials meet. */
     double *v, *x, *F, *H, *J; /* evolved */
     double *v_rate, *x_rate, *F_rate, *H_rate, *J_rate;
-    double *X;                    /* reference positions [m] */
+    double *X;                    /* reference positions [m]; NULL where only their pair vectors are needed */
     double *P;                    /* stress */
     double *cofactor;             /* H, or cof F where H is not evolved but the equation of J needs it */
     double *v_gradient;           /* tensor: least-squares gradient of v; NULL: F_rate serves */

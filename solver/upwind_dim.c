@@ -168,7 +168,8 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
     const double *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
     struct impedances z = {of_a->zp, of_a->zs};
-    vec X_a = load(work->X + a * LANES);
+    bool placed = terms.frozen || terms.reconstruct || terms.volume; /* else X need not be there */
+    vec X_a = placed ? load(work->X + a * LANES) : (vec){0};
     vec x_a = load((terms.frozen ? work->X : work->x) + a * LANES);
     vec v_a = load(work->v + a * LANES);
     struct tensor slope_a = load_tensor(slope + a * TENSOR);
@@ -177,7 +178,7 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
         const double *C = work->pair + ab * PAIR;
         const double *D = terms.transposed ? work->transposed + ab * DIM : C;
         const double *P_b = work->P + b * TENSOR;
-        vec distance = load(work->X + b * LANES) - X_a;
+        vec distance = placed ? load(work->X + b * LANES) - X_a : (vec){0};
         vec along = terms.frozen ? distance : load(work->x + b * LANES) - x_a;
         vec jump = load(work->v + b * LANES) - v_a;
         bool alike = true;
@@ -327,10 +328,10 @@ static void volume_terms(const struct solver_upwind *work, double pairs, struct 
 static void rate_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
 {
     double pairs = (double)work->row[count];
-    double geometry = (work->frozen ? 2.0 : 3.0) * LANES;
+    double vectors = 1.0 + (work->X != NULL ? 1.0 : 0.0) + (work->frozen ? 0.0 : 1.0); /* jump, distance, along */
     double flux = FLOPS_DOT_AND_SQUARE + 5.0 * LANES + 3.0;
     solver_cost_term(terms, "internal force", 2, pairs * FLOPS_ADD_SCALED);
-    solver_cost_term(terms, "dissipation of p", 2, pairs * (geometry + flux));
+    solver_cost_term(terms, "dissipation of p", 2, pairs * (vectors * LANES + flux));
     solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * RECONSTRUCTION : 0.0);
     solver_cost_term(terms, "impedances where materials meet", 2, work->stride != 0 ? pairs * 8.0 : 0.0);
     if (work->evolves_J) {

@@ -131,23 +131,25 @@ static void declare(const struct solver_run *run, const struct solver_scene *sce
     of->bytes = (double)solver_cost_total(&of->arrays) / particles;
 }
 
-/* Of a case whose scene was opened. */
-static void measure(struct solver_scene *scene, struct verify_cost_case *of)
+/* Of a case whose scene was opened. The run is the caller's to free. */
+static void measure(struct solver_scene *scene, struct verify_cost_case *of, struct solver_run **run)
 {
-    struct solver_run *run = NULL;
     double seconds = NAN;
     of->seconds = NAN;
-    of->runs = verify_run_create(scene, &run, &of->why);
+    of->runs = verify_run_create(scene, run, &of->why);
     if (of->runs) {
-        declare(run, scene, of);
-        of->runs = verify_time_steps(run, &seconds, &of->why);
+        declare(*run, scene, of);
+        of->runs = verify_time_steps(*run, &seconds, &of->why);
         of->seconds = of->runs ? seconds / (double)of->facts.particles : NAN;
     }
-    solver_run_free(run);
 }
 
-static void measure_without(const struct verify_options *options, struct verify_cost_item *item)
+/* Other programs may take the core for a while: the whole scene is timed again beside each variant. */
+static void measure_without(const struct verify_options *options, struct solver_run *whole,
+                            struct verify_cost_item *item)
 {
+    struct solver_run *run = NULL;
+    double seconds;
     char room[2 * SOLVER_TEXT];
     struct solver_scene *scene = NULL;
     item->without = (struct verify_cost_case){.seconds = NAN};
@@ -157,7 +159,11 @@ static void measure_without(const struct verify_options *options, struct verify_
     if (item->words == NULL) {
         solver_scene_forget(scene, SOLVER_MATERIAL_AT);
     }
-    measure(scene, &item->without);
+    item->beside = verify_time_steps(whole, &seconds, &item->without.why)
+                       ? seconds / (double)solver_run_facts(whole).particles
+                       : NAN;
+    measure(scene, &item->without, &run);
+    solver_run_free(run);
     solver_scene_free(scene);
 }
 
@@ -226,9 +232,11 @@ bool verify_cost_measure(const struct verify_options *options, struct verify_cos
     if (!open_with(options, "", room, &cost->scene, error)) {
         return false;
     }
-    measure(cost->scene, &cost->whole);
+    struct solver_run *whole = NULL;
+    measure(cost->scene, &cost->whole, &whole);
     if (!cost->whole.runs) {
         *error = cost->whole.why;
+        solver_run_free(whole);
         return false;
     }
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
@@ -236,9 +244,10 @@ bool verify_cost_measure(const struct verify_options *options, struct verify_cos
             struct verify_cost_item *item = &cost->item[cost->item_count++];
             item->name = parts[i].name;
             item->words = parts[i].words;
-            measure_without(options, item);
+            measure_without(options, whole, item);
         }
     }
+    solver_run_free(whole);
     measure_history(options, cost);
     return true;
 }

@@ -22,6 +22,7 @@ struct verify_cost_case {
 struct verify_cost_item {
     const char *name, *words; /* of --set, separated by blanks; NULL: no key does */
     struct verify_cost_case without;
+    double beside; /* seconds of the whole scene's particle and step, timed just before */
 };
 
 enum { VERIFY_COST_ITEMS = 16 };

@@ -93,7 +93,7 @@ static void print_items(const struct verify_cost *cost)
         }
         (void)printf("  %-20s %13.1f %5.1f %% %12.1f %5.1f %% %12.1f %5.1f %%  %.60s\n", item->name, of->flops,
                      saved(whole->flops, of->flops), of->bytes, saved(whole->bytes, of->bytes), 1e9 * of->seconds,
-                     saved(whole->seconds, of->seconds), words);
+                     saved(item->beside, of->seconds), words);
     }
     double particles = (double)whole->facts.particles;
     (void)printf("  recorded history: %.0f rows of %.0f B over %.0f steps are %.2f B/particle", cost->rows,
@@ -172,6 +172,8 @@ bool verify_cost_json(FILE *file, const void *context, struct solver_error *erro
         verify_json_text_member(file, "name", item->name);
         (void)fprintf(file, ", \"runs\": %s, ", item->without.runs ? "true" : "false");
         put_case(file, &item->without);
+        (void)fputs(", ", file);
+        verify_json_number_member(file, "ns_per_particle_step_beside", 1e9 * item->beside);
         (void)fputc('}', file);
     }
     (void)fputs("\n  ],\n  \"history\": {", file);
