@@ -227,7 +227,7 @@ size_t solver_stencil_bytes(const struct solver_stencil *stencil)
 /* Keeps the larger of two, and a NaN, which fmax would lose. */
 static double worse(double worst, double next)
 {
-    return isnan(worst) || worst >= next ? worst : next;
+    return isnan(worst) || isgreaterequal(worst, next) ? worst : next;
 }
 
 struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil *stencil,

@@ -23,7 +23,7 @@ if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND NOT ASSAY_SANITIZE)
   target_link_libraries(test_operations PRIVATE counted_flags)
   target_compile_definitions(test_operations PRIVATE TEST_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   # The program's frame and the counter know true doubles.
-  add_library(counter STATIC ${counted}/counter.c ${CMAKE_CURRENT_LIST_DIR}/unit/unit.c)
+  add_library(counter STATIC ${counted}/counter.c ${unit_frame})
   target_include_directories(counter PRIVATE ${CMAKE_SOURCE_DIR})
   target_link_libraries(counter PUBLIC PkgConfig::CUNIT)
   target_link_libraries(test_operations PRIVATE counted_solver counter CHOLMOD::CHOLMOD OpenMP::OpenMP_C m)

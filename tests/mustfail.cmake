@@ -88,7 +88,7 @@ function(assay_unit_mutant name unit test)
     set(libraries assay_solver_1d assay_solver_2d assay_solver_3d)
   endif()
   assay_mutate(${name} ${libraries})
-  add_executable(mutant_${name} ${objects} unit/${unit}.c unit/unit.c)
+  add_executable(mutant_${name} ${objects} unit/${unit}.c ${unit_frame})
   target_link_libraries(mutant_${name} PRIVATE assay_solver PkgConfig::CUNIT)
   assay_test(mustfail-${name} LABELS unit mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/mustfail_unit.sh ${test}
     $<TARGET_FILE:test_${unit}> $<TARGET_FILE:mutant_${name}>)

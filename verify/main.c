@@ -3,6 +3,7 @@
 #include "verify/help.h"
 #include "verify/manual.h"
 #include "verify/suggest.h"
+#include "verify/trap.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -180,6 +181,7 @@ static int flushed(int code)
 
 int main(int argc, char **argv)
 {
+    verify_trap_from_environment();
     if (argc < 2) {
         print_help(stderr);
         return VERIFY_BAD_INPUT;
