@@ -187,10 +187,12 @@ static bool time_history(const struct verify_options *options, const char *words
     struct solver_scene *scene = NULL;
     struct solver_run *run = NULL;
     struct solver_error error;
-    bool done = open_with(options, words, room, &scene, &error) && verify_run_create(scene, &run, &error) &&
-                solver_run_to(run, scene->t_end, stop_after, until, &error);
+    bool done = open_with(options, words, room, &scene, &error) && verify_run_create(scene, &run, &error);
+    int threads = done ? solver_run_facts(run).threads : 1;
+    double begun = verify_clock(threads);
+    done = done && solver_run_to(run, scene->t_end, stop_after, until, &error);
     if (done) {
-        *seconds = solver_run_facts(run).seconds;
+        *seconds = verify_clock(threads) - begun;
         until->rows = solver_run_history(run)->count;
     }
     solver_run_free(run);

@@ -3,7 +3,7 @@
 # Usage: trap.sh BUILD
 set -euo pipefail
 # All that computes; programs that hand over infinities and NaN to see them refused are not among these.
-programs=(schemes run run_composite run_faces run_fluxes run_bodies run_start jst material material_loops flow hardening
+programs=(schemes run run_composite run_faces run_fluxes run_bodies run_start run_denormal jst material material_loops flow hardening
   integrator kernel stencil ulsph_diffusion ulsph_forces ulsph_gradients ulsph_pairs wall cost)
 # Each exercises what the others do not. At such spacings gates need not hold: an exit code of 1 is no trap.
 scenes=("verify swinging-cube --levels 8,12" "verify swinging-cube --levels 8 --set scheme=jst"
