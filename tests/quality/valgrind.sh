@@ -17,6 +17,7 @@ declare -A skipped=(
   [test_solver_stencil_refusals]="the clouds and stencils of test_solver_stencil, again for each refusal: 40 s"
   [test_solver_run_round]="factorised stencils of balls, and runs on them: minutes"
   [test_solver_stencil_round]="factorised stencils of balls: minutes"
+  [test_solver_fields]="thousands of runs of test_solver_run, poisoned: a minute"
   [test_verify_trap]="valgrind 3.19 knows no floating-point traps"
   [test_solver_run_momentum]="a thousand steps of each run of test_solver_run: 90 s"
 )
