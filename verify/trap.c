@@ -1,4 +1,5 @@
-#define _GNU_SOURCE /* feenableexcept, dladdr */
+/* feenableexcept, dladdr */
+#define _GNU_SOURCE // NOLINT(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 
 #include "verify/trap.h"
 
