@@ -43,6 +43,8 @@ static void give(const void *place)
     slot[at].bytes = 0;
 }
 
+/* The names are the linker's. */
+// NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 void *__real_aligned_alloc(size_t alignment, size_t bytes);
 void *__real_malloc(size_t bytes);
 void *__real_calloc(size_t count, size_t size);
@@ -88,6 +90,7 @@ void __wrap_free(void *place)
     give(place);
     __real_free(place);
 }
+// NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 
 /* --- memory --- */
 
