@@ -76,7 +76,10 @@ bool render_camera_aim(const struct render_view *view, const int body[4], const 
         return render_fail(why, "view: the frame has no size seen along {%g, %g, %g}", view->direction[0],
                            view->direction[1], view->direction[2]);
     const double room = 1 - 2 * margin;
-    camera->scale = fmin(room * (body[2] - body[0]) / width, room * (body[3] - body[1]) / height);
+    /* what has no extent one way is as large as it is the other way */
+    const double to_width = width > 0 ? room * (body[2] - body[0]) / width : INFINITY;
+    const double to_height = height > 0 ? room * (body[3] - body[1]) / height : INFINITY;
+    camera->scale = fmin(to_width, to_height);
     camera->middle[0] = (across[0] + across[1]) / 2;
     camera->middle[1] = (along[0] + along[1]) / 2;
     camera->centre[0] = 0.5 * (body[0] + body[2]);

@@ -115,6 +115,23 @@ bool cloud_order(struct solver_cloud *cloud, uint32_t (*place)[3], struct solver
     return ok;
 }
 
+void solver_cloud_arrays(const struct solver_cloud *cloud, struct solver_cost_arrays *arrays)
+{
+    static const char group[] = "cloud";
+    size_t dim = (size_t)cloud->dim;
+    size_t count = cloud->count;
+    solver_cost_array(arrays, group, "positions X", cloud->X, count * dim, sizeof *cloud->X);
+    solver_cost_array(arrays, group, "volumes", cloud->V, count, sizeof *cloud->V);
+    solver_cost_array(arrays, group, "tags", cloud->tags, count, sizeof *cloud->tags);
+    solver_cost_array(arrays, group, "bodies", cloud->body, count, sizeof *cloud->body);
+    solver_cost_array(arrays, group, "lattice sites", cloud->site, count * dim, sizeof *cloud->site);
+    solver_cost_array(arrays, group, "mirror images", cloud->image, cloud->wall_count, sizeof *cloud->image);
+    solver_cost_array(arrays, group, "face points", cloud->face_point, cloud->face_point_count,
+                      sizeof *cloud->face_point);
+    solver_cost_array(arrays, group, "cells of pictures", cloud->cell, cloud->cell_count << dim, sizeof *cloud->cell);
+    solver_cost_array(arrays, group, "itself", cloud, 1, sizeof *cloud);
+}
+
 void solver_cloud_free(struct solver_cloud *cloud)
 {
     if (cloud == NULL) {

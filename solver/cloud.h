@@ -2,6 +2,7 @@
 #ifndef SOLVER_CLOUD_H
 #define SOLVER_CLOUD_H
 
+#include "solver/cost.h"
 #include "solver/error.h"
 #include "solver/shape.h"
 
@@ -93,6 +94,7 @@ static inline size_t solver_cloud_driven(const struct solver_cloud *cloud)
 {
     return cloud->symmetry != NULL ? cloud->count - cloud->wall_count : cloud->count;
 }
+void solver_cloud_arrays(const struct solver_cloud *cloud, struct solver_cost_arrays *arrays);
 void solver_cloud_free(struct solver_cloud *cloud);
 
 #endif

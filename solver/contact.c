@@ -126,3 +126,22 @@ bool solver_contact_keep(struct solver_contact *contact, struct solver_keeper *k
            (solver_keep(keeper, "contact begins", &contact->begin, sizeof contact->begin, error) &&
             solver_keep(keeper, "contact ends", &contact->end, sizeof contact->end, error));
 }
+
+void solver_contact_arrays(const struct solver_contact *contact, struct solver_cost_arrays *arrays)
+{
+    static const char group[] = "contact";
+    if (contact->law != SOLVER_CONTACT_NONE) {
+        solver_skin_arrays(&contact->skin, group, arrays);
+        solver_cost_array(arrays, group, "masses", contact->mass, contact->skin.cloud->count, sizeof *contact->mass);
+    }
+}
+
+void solver_contact_terms(const struct solver_contact *contact, struct solver_cost_terms *terms)
+{
+    if (contact->law != SOLVER_CONTACT_NONE) {
+        double dim = contact->skin.cloud->dim;
+        double pairs = 0.5 * (double)solver_skin_pairs(&contact->skin); /* each is asked once */
+        solver_cost_term(terms, "contact: whether particles moved", 0, 3.0 * dim * (double)contact->skin.cloud->count);
+        solver_cost_term(terms, "contact: pairs", 0, pairs * (9.0 * dim + 1.0));
+    }
+}

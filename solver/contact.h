@@ -20,6 +20,9 @@ struct solver_contact {
 /* Law and distance as the body's scene says; V: as in struct solver_geometry. */
 bool solver_contact_create(const struct solver_body *body, const double *V, struct solver_contact *contact,
                            struct solver_error *error);
+void solver_contact_arrays(const struct solver_contact *contact, struct solver_cost_arrays *arrays);
+/* Of bodies that are near but do not press each other. */
+void solver_contact_terms(const struct solver_contact *contact, struct solver_cost_terms *terms);
 void solver_contact_free(struct solver_contact *contact);
 /* Adds the forces at positions x, velocities v and time t to the accelerations v_rate, in a step of size dt [s]; padded
  * vectors of `lanes`. SOLVER_BROKE_DOWN where bodies could go through one another within the step. */

@@ -16,10 +16,12 @@ struct spectrum {
 /* One rotation of Jacobi's method in the plane of axes i and j: A <- R^T A R, Q <- Q R. */
 static inline void rotate(double A[DIM][DIM], double Q[DIM][DIM], int i, int j)
 {
-    if (A[i][j] == 0.0) {
+    double apart = A[j][j] - A[i][i];
+    if (fabs(A[i][j]) <= 0x1p-400 * fabs(apart)) { /* the angle would change no digit, and theta might overflow */
+        A[i][j] = A[j][i] = 0.0;
         return;
     }
-    double theta = 0.5 * (A[j][j] - A[i][i]) / A[i][j];
+    double theta = 0.5 * apart / A[i][j];
     double t = copysign(1.0, theta) / (fabs(theta) + hypot(theta, 1.0));
     double c = 1.0 / sqrt(t * t + 1.0);
     double s = t * c;

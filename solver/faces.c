@@ -114,18 +114,32 @@ static bool constrain_by_faces(const struct solver_scene *scene, const struct so
     return any;
 }
 
+/* Room for the constraints and loads that there are, and none where there are none. */
+static bool reserve(struct solver_faces *faces, const struct solver_body *body, const struct solver_geometry *geometry,
+                    struct solver_error *error)
+{
+    const struct solver_scene *scene = body->scene;
+    size_t constraints = 0;
+    size_t loads = 0;
+    for (size_t a = 0; a < body->cloud->count; a++) {
+        struct solver_constraint constraint = {.particle = (uint32_t)a};
+        constraints += constrain_by_faces(scene, body->cloud, a, &constraint) ? 1 : 0;
+    }
+    for (size_t i = 0; i < geometry->face_point_count; i++) {
+        loads += traction_of(scene, geometry->face_point[i].face) != SOLVER_FORMULAS ? 1 : 0;
+    }
+    return (constraints == 0 ||
+            solver_alloc((void **)&faces->constraint, constraints, sizeof *faces->constraint, "constraints", error)) &&
+           (loads == 0 || solver_alloc((void **)&faces->load, loads, sizeof *faces->load, "loads", error));
+}
+
 bool solver_faces_create(const struct solver_body *body, const struct solver_geometry *geometry,
                          struct solver_faces *faces, struct solver_error *error)
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_cloud *cloud = body->cloud;
     *faces = (struct solver_faces){.dim = cloud->dim, .force_time = NAN};
-    size_t most = cloud->wall_count;
-    for (size_t a = 0; a < cloud->count; a++) {
-        most += (cloud->tags[a] & SOLVER_FACE_BITS) != 0 ? 1 : 0;
-    }
-    if (!solver_alloc((void **)&faces->constraint, most, sizeof *faces->constraint, "constraints", error) ||
-        !solver_alloc((void **)&faces->load, geometry->face_point_count, sizeof *faces->load, "loads", error) ||
+    if (!reserve(faces, body, geometry, error) ||
         (solver_scene_has(scene, SOLVER_BODY_FORCE) &&
          !solver_alloc((void **)&faces->force, cloud->count * (size_t)cloud->dim, sizeof *faces->force, "body force",
                        error))) {
@@ -292,4 +306,30 @@ bool solver_faces_load(struct solver_faces *faces, const struct solver_body *bod
         }
     }
     return faces->force == NULL || add_body_force(faces, body, geometry, t, lanes, v, v_rate, power, error);
+}
+
+void solver_faces_arrays(const struct solver_faces *faces, const struct solver_body *body,
+                         struct solver_cost_arrays *arrays)
+{
+    static const char group[] = "faces";
+    solver_cost_array(arrays, group, "constraints", faces->constraint, faces->constraint_count,
+                      sizeof *faces->constraint);
+    solver_cost_array(arrays, group, "loads", faces->load, faces->load_count, sizeof *faces->load);
+    solver_cost_array(arrays, group, "body force", faces->force, body->cloud->count * (size_t)faces->dim,
+                      sizeof *faces->force);
+}
+
+void solver_faces_terms(const struct solver_faces *faces, const struct solver_body *body,
+                        struct solver_cost_terms *terms)
+{
+    double dim = faces->dim;
+    double constrained = 0.0;
+    for (size_t c = 0; c < faces->constraint_count; c++) {
+        bool mirrored = faces->constraint[c].image != faces->constraint[c].particle;
+        constrained += dim * (mirrored ? 4.0 : 2.0);
+    }
+    double of_force = faces->force != NULL ? 5.0 * dim * (double)body->cloud->count : 0.0;
+    solver_cost_term(terms, "faces that hold or move", 0, constrained);
+    solver_cost_term(terms, "tractions", 0, (double)faces->load_count * (2.0 * dim + 1.0 + 7.0 * dim));
+    solver_cost_term(terms, "body force", 0, of_force);
 }

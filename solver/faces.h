@@ -42,6 +42,11 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
                          struct solver_faces *faces, struct solver_error *error);
 void solver_faces_free(struct solver_faces *faces);
 
+void solver_faces_arrays(const struct solver_faces *faces, const struct solver_body *body,
+                         struct solver_cost_arrays *arrays);
+void solver_faces_terms(const struct solver_faces *faces, const struct solver_body *body,
+                        struct solver_cost_terms *terms);
+
 /* Enforces the constraints on v, padded vectors with the given number of lanes, at time t. */
 bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t, size_t lanes,
                             double *v, struct solver_error *error);

@@ -157,6 +157,16 @@ bool solver_graph_build(const struct solver_cloud *cloud, double radius, struct 
     return solver_graph_build_pairs(cloud, radius, SOLVER_PAIRS_WITHIN, graph, error);
 }
 
+void solver_graph_arrays(const struct solver_graph *graph, const char *group, struct solver_cost_arrays *arrays)
+{
+    const struct solver_cells *cells = &graph->cells;
+    solver_cost_array(arrays, group, "rows of neighbours", graph->row, graph->row_room, sizeof *graph->row);
+    solver_cost_array(arrays, group, "neighbours", graph->neighbour, graph->neighbour_room, sizeof *graph->neighbour);
+    solver_cost_array(arrays, group, "cells: starts", cells->start, cells->cell_room, sizeof *cells->start);
+    solver_cost_array(arrays, group, "cells: particles", cells->particle, cells->point_room, sizeof *cells->particle);
+    solver_cost_array(arrays, group, "cells: of particles", cells->cell, cells->point_room, sizeof *cells->cell);
+}
+
 void solver_graph_free(struct solver_graph *graph)
 {
     free(graph->row);

@@ -4,6 +4,7 @@
 
 #include "solver/cells.h"
 #include "solver/cloud.h"
+#include "solver/cost.h"
 
 /* Which pairs a graph has. */
 enum solver_pairs {
@@ -31,6 +32,8 @@ bool solver_graph_build_pairs(const struct solver_cloud *cloud, double radius, e
 /* Its pairs within bodies. */
 bool solver_graph_build(const struct solver_cloud *cloud, double radius, struct solver_graph *graph,
                         struct solver_error *error);
+/* The room it has, cells included. */
+void solver_graph_arrays(const struct solver_graph *graph, const char *group, struct solver_cost_arrays *arrays);
 void solver_graph_free(struct solver_graph *graph);
 /* Index of the pair (a, b), or SIZE_MAX where they are no neighbours. */
 size_t solver_graph_find(const struct solver_graph *graph, size_t a, size_t b);

@@ -68,7 +68,7 @@ static double newton(const struct solver_hardening *hardening, double mu, double
 double solver_hardening_flow(const struct solver_hardening *hardening, double mu, double q, double plastic)
 {
     double excess = q - solver_hardening_stress(hardening, plastic, NULL);
-    if (!(excess > 0.0) || !isfinite(excess)) {
+    if (!isfinite(excess) || excess <= 0.0) {
         return 0.0;
     }
     return hardening->law == SOLVER_HARDENING_LINEAR ? excess / (3.0 * mu + hardening->modulus)

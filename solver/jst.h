@@ -38,6 +38,8 @@ struct solver_jst {
 struct solver_jst_loops {
     /* The Laplacians of the present state. */
     void (*gather)(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end);
+    void (*terms)(const struct solver_upwind *work, const struct solver_jst *jst, size_t count,
+                  struct solver_cost_terms *terms);
     /* Those of upwind.h, with D2 + D4. Reads the Laplacians of neighbours: all of them must be there. */
     void (*rates)(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end);
 };

@@ -1,5 +1,6 @@
 #include "solver/jst.h"
 
+#include "solver/dim_flops.h"
 #include "solver/dim_sums.h"
 
 /* Where materials meet, the volumetric stress has a jump of its own, and so has J: nothing evens that out. */
@@ -86,4 +87,23 @@ static void rates(const struct solver_upwind *work, const struct solver_jst *jst
     }
 }
 
-const struct solver_jst_loops DIM_NAME(solver_jst) = {.gather = gather, .rates = rates};
+/* Operations (cost.h). */
+static void terms_of(const struct solver_upwind *work, const struct solver_jst *jst, size_t count,
+                     struct solver_cost_terms *terms)
+{
+    double pairs = (double)work->row[count];
+    double particles = (double)count;
+    double means = jst->exchange != NULL ? 1.0 : 0.0;
+    double harmonic = 3.0 + 3.0 * LANES + means;
+    solver_cost_term(terms, "Laplacian of v", 1, pairs * 3.0 * LANES + particles * (2.0 + LANES));
+    solver_cost_term(terms, "internal force", 2, pairs * FLOPS_ADD_SCALED);
+    solver_cost_term(terms, "biharmonic dissipation of p", 2, pairs * (2.0 + 4.0 * LANES) + particles * (LANES + 2.0));
+    solver_cost_term(terms, "harmonic dissipation of p", 2, pairs * harmonic);
+    if (work->evolves_J) {
+        solver_cost_term(terms, "Laplacian of J", 1, pairs * 3.0 + particles * 2.0);
+        solver_cost_term(terms, "biharmonic dissipation of J", 2, pairs * 4.0);
+        solver_cost_term(terms, "harmonic dissipation of J", 2, pairs * 6.0);
+    }
+}
+
+const struct solver_jst_loops DIM_NAME(solver_jst) = {.gather = gather, .rates = rates, .terms = terms_of};

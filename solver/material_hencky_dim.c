@@ -7,6 +7,7 @@
  * Principal strains come from b_e - 1, which small strains leave exact: (F - 1) + (F - 1)^T + (F - 1) (F - 1)^T, and
  * what is remembered of Cp^-1 is its difference from the identity, for the same reason. */
 #include "solver/dim.h"
+#include "solver/dim_flops.h"
 #include "solver/dim_spectral.h"
 #include "solver/material.h"
 
@@ -367,9 +368,38 @@ static double flow_fastest(const struct solver_material_constants *material, siz
     return sqrt(square);
 }
 
+/* --- operations (cost.h) --- */
+
+enum {
+    PRODUCT = DIM * FLOPS_ADD_SCALED,
+    LOGARITHM = SOLVER_COST_FUNCTION + 1, /* a function and a factor */
+    STRAINS = DIM + PRODUCT + 3 * FLOPS_TENSOR + FLOPS_SPECTRUM + DIM * LOGARITHM + 3,
+    PLASTIC_STRAINS = STRAINS + 2 * PRODUCT + LOGARITHM,
+    STRESS =
+        FLOPS_COFACTOR + FLOPS_DETERMINANT + 1 + LOGARITHM + 1 + FLOPS_TENSOR + DIM * DIM * (5 + FLOPS_DOT + 2 * LANES),
+    MODULUS = 7 * DIM + DIM * (DIM - 1) / 2 * (LOGARITHM + 5) + 5,
+    FASTEST = MODULUS + LOGARITHM + 2,
+    YIELD = 12 + 4 + 3, /* equivalent stress and its excess */
+    RETURN = FLOPS_COFACTOR + FLOPS_DETERMINANT + 1 + 3 * (2 * LOGARITHM + 4) +
+             DIM * (DIM * (3 + FLOPS_DOT) + DIM * (DIM + 1) / 2 * (FLOPS_DOT + 2)) + 7
+};
+
+static int stress_flops(bool H, bool J)
+{
+    return (H ? 0 : FLOPS_COFACTOR) + (J ? 0 : FLOPS_DETERMINANT) + STRAINS + STRESS;
+}
+
+/* Where it flows, with linear hardening. */
+static int flow_stress_flops(bool H, bool J)
+{
+    return stress_flops(H, J) + PLASTIC_STRAINS - STRAINS + YIELD + RETURN;
+}
+
 static const struct solver_flow plastic_flow = {
     .width = WIDTH,
     .stress_range = flow_stress_range,
+    .stress_flops = flow_stress_flops,
+    .fastest_flops = STRAINS + PLASTIC_STRAINS + FASTEST,
     .energy = energy_of,
     .stress_normal = normal_of,
     .fastest = flow_fastest,
@@ -384,5 +414,8 @@ const struct solver_material DIM_NAME(solver_hencky) = {
     .wave_speeds = wave_speeds,
     .stress_range = stress_range,
     .volumetric_range = volumetric_range,
+    .stress_flops = stress_flops,
+    .volumetric_flops = LOGARITHM + 1,
+    .fastest_flops = STRAINS + FASTEST,
     .fastest = fastest,
 };

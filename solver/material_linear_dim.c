@@ -1,6 +1,7 @@
 /* Hooke's law, split into deviatoric and volumetric parts:
  *     W = mu e' : e' + kappa/2 (J - 1)^2,   e' = dev sym(F - I),   P = 2 mu e' + kappa (J - 1) I. */
 #include "solver/dim.h"
+#include "solver/dim_flops.h"
 #include "solver/material.h"
 
 #include <math.h>
@@ -110,6 +111,13 @@ static double fastest(const struct solver_material_constants *material, size_t s
     return speed;
 }
 
+static int stress_flops(bool H, bool J)
+{
+    (void)H;
+    (void)J; /* as many for either */
+    return (2 * DIM + 1) + 2 + 5 * DIM + DIM * (DIM - 1);
+}
+
 const struct solver_material DIM_NAME(solver_linear_elastic) = {
     .linear = true,
     .energy = energy,
@@ -119,5 +127,7 @@ const struct solver_material DIM_NAME(solver_linear_elastic) = {
     .wave_speeds = wave_speeds,
     .stress_range = stress_range,
     .volumetric_range = volumetric_range,
+    .stress_flops = stress_flops,
+    .volumetric_flops = 2,
     .fastest = fastest,
 };

@@ -6,6 +6,7 @@
  * both terms: convex in (F, J), but the drift enters P through kappa + mu (swinging cube, sbp2, n = 16: error of
  * P 2.9e-3 instead of 2.3e-3). F:F counts the directions out of the plane. */
 #include "solver/dim.h"
+#include "solver/dim_flops.h"
 #include "solver/material.h"
 
 #include <math.h>
@@ -230,6 +231,25 @@ static double fastest(const struct solver_material_constants *material, size_t s
     return sqrt(square);
 }
 
+enum {
+    INVARIANT = FLOPS_CONTRACT + 1,
+    ROOT = 2 + SOLVER_COST_FUNCTION, /* mu / cbrt(J J) */
+    MEASURES = FLOPS_COFACTOR + FLOPS_DETERMINANT,
+    BOUND = DIM * DIM * (FLOPS_DOT + 1), /* square_bound */
+    FASTEST = MEASURES + INVARIANT + ROOT + 6 + 2 + 5 + 2 * BOUND + 17 + 1
+};
+
+static int stress_flops(bool H, bool J)
+{
+    return (H ? 0 : FLOPS_COFACTOR) + (J ? 0 : FLOPS_DETERMINANT) + MEASURES + ROOT + INVARIANT + 3 + 2 +
+           5 * FLOPS_TENSOR;
+}
+
+static int stress_flops_polyconvex(bool H, bool J)
+{
+    return stress_flops(H, J) - MEASURES;
+}
+
 const struct solver_material DIM_NAME(solver_neo_hookean) = {
     .energy = energy,
     .stress = stress,
@@ -238,6 +258,9 @@ const struct solver_material DIM_NAME(solver_neo_hookean) = {
     .wave_speeds = wave_speeds,
     .stress_range = stress_range,
     .volumetric_range = volumetric_range,
+    .stress_flops = stress_flops,
+    .volumetric_flops = 2,
+    .fastest_flops = FASTEST,
     .fastest = fastest,
 };
 
@@ -249,5 +272,8 @@ const struct solver_material DIM_NAME(solver_neo_hookean_polyconvex) = {
     .wave_speeds = wave_speeds,
     .stress_range = stress_range_polyconvex,
     .volumetric_range = volumetric_range,
+    .stress_flops = stress_flops_polyconvex,
+    .volumetric_flops = 2,
+    .fastest_flops = FASTEST,
     .fastest = fastest,
 };

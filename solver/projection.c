@@ -360,3 +360,27 @@ bool solver_projection_keep(struct solver_projection *projection, struct solver_
     return !projection->on ||
            solver_keep(keeper, "centre of moments", projection->centre, sizeof projection->centre, error);
 }
+
+void solver_projection_arrays(const struct solver_projection *projection, struct solver_cost_arrays *arrays)
+{
+    if (projection->on) {
+        solver_cost_array(arrays, "projection", "sums of pieces", projection->partial,
+                          solver_pieces(projection->body->cloud->count) * SUMS, sizeof(double));
+    }
+}
+
+void solver_projection_terms(const struct solver_projection *projection, int stages, struct solver_cost_terms *terms)
+{
+    if (!projection->on) {
+        return;
+    }
+    double dim = projection->body->cloud->dim;
+    double look = 13.0 * dim;
+    double sum = look + 1.0 + 2.0 * 9.0 + 16.0 * 3.0 + 1.0; /* mass, two crosses, three axes, volume */
+    double correct = look + 1.0 + 3.0 + 9.0 + 3.0 * dim;
+    double ends = projection->held ? 0.0 : 1.0;
+    double sums = projection->loaded ? 2.0 * stages + ends : stages + (stages == 1 ? ends : 0.0);
+    double particles = (double)projection->body->cloud->count;
+    double pieces = (double)solver_pieces(projection->body->cloud->count) * SUMS;
+    solver_cost_once(terms, "angular momentum", sums * (particles * sum + pieces) + stages * particles * correct);
+}

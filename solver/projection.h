@@ -49,6 +49,9 @@ bool solver_projection_create(const struct solver_body *body, const struct solve
                               struct solver_projection *projection, struct solver_error *error);
 void solver_projection_free(struct solver_projection *projection);
 
+void solver_projection_arrays(const struct solver_projection *projection, struct solver_cost_arrays *arrays);
+void solver_projection_terms(const struct solver_projection *projection, int stages, struct solver_cost_terms *terms);
+
 /* Before loads are added to the rates of a stage. */
 void solver_projection_note(struct solver_projection *projection, const struct solver_state *state,
                             const struct solver_stage *stage);

@@ -254,6 +254,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .pairs = geometry.pairs,
         .steps = run->step,
         .spacing = run->cloud->spacing,
+        .step = run->scheme->largest_step(run->system),
         .mass = mass,
         .setup_seconds = run->setup_seconds,
         .seconds = run->seconds,
@@ -263,4 +264,29 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .stencil_residual = geometry.residual,
         .threads = run->threads,
     };
+}
+
+void solver_run_cost(const struct solver_run *run, struct solver_cost_arrays *arrays, struct solver_cost_terms *terms)
+{
+    size_t constants = run->body.stride != 0 ? run->cloud->count : 1;
+    int stages = run->integrator->stages;
+    arrays->count = 0;
+    solver_state_arrays(&run->state, arrays);
+    run->scheme->arrays(run->system, arrays);
+    solver_cost_array(arrays, "material", run->body.stride != 0 ? "composite constants" : "constants", run->constants,
+                      constants, sizeof *run->constants);
+    solver_faces_arrays(&run->faces, &run->body, arrays);
+    solver_contact_arrays(&run->contact, arrays);
+    solver_wall_arrays(&run->wall, run->cloud->count, arrays);
+    solver_projection_arrays(&run->projection, arrays);
+    solver_cloud_arrays(run->cloud, arrays);
+    solver_run_output_arrays(run, arrays);
+    solver_cost_array(arrays, "run", "itself", run, 1, sizeof *run);
+    terms->count = 0;
+    run->scheme->terms(run->system, terms);
+    solver_faces_terms(&run->faces, &run->body, terms);
+    solver_contact_terms(&run->contact, terms);
+    solver_wall_terms(&run->wall, stages, terms);
+    solver_projection_terms(&run->projection, stages, terms);
+    solver_state_terms(&run->state, run->integrator, terms);
 }

@@ -3,6 +3,7 @@
 #define SOLVER_RUN_H
 
 #include "solver/cloud.h"
+#include "solver/cost.h"
 #include "solver/error.h"
 #include "solver/scene.h"
 
@@ -71,6 +72,7 @@ struct solver_history {
 struct solver_facts {
     size_t particles, pairs, steps;
     double spacing;            /* [m] */
+    double step;               /* [s] the longest that the CFL number allows now */
     double mass;               /* [kg]; per unit thickness in 2D, per unit area in 1D */
     double setup_seconds;      /* cloud and stencil */
     double seconds;            /* time loop alone */
@@ -98,5 +100,7 @@ bool solver_run_steps(struct solver_run *run, size_t steps, struct solver_error 
 bool solver_run_output(struct solver_run *run, struct solver_output *output, struct solver_error *error);
 const struct solver_history *solver_run_history(const struct solver_run *run);
 struct solver_facts solver_run_facts(const struct solver_run *run);
+/* All that it has allocated and not released, and all that one of its steps computes. */
+void solver_run_cost(const struct solver_run *run, struct solver_cost_arrays *arrays, struct solver_cost_terms *terms);
 
 #endif

@@ -51,6 +51,7 @@ bool solver_run_check(struct solver_run *run, struct solver_error *error);
 bool solver_run_note(struct solver_run *run, struct solver_error *error);
 /* For checkpoints (keep.h). */
 bool solver_run_keep_history(struct solver_run *run, struct solver_keeper *keeper, struct solver_error *error);
+void solver_run_output_arrays(const struct solver_run *run, struct solver_cost_arrays *arrays);
 void solver_run_output_free(struct solver_run *run);
 
 #endif

@@ -308,6 +308,23 @@ const struct solver_history *solver_run_history(const struct solver_run *run)
     return &run->history;
 }
 
+void solver_run_output_arrays(const struct solver_run *run, struct solver_cost_arrays *arrays)
+{
+    static const char group[] = "history";
+    const struct solver_history *history = &run->history;
+    size_t probes = 3 * history->probe_count;
+    struct arrays at;
+    solver_cost_array(arrays, "output", "fields as shown", run->output, lay_out(run, &at), sizeof *run->output);
+    solver_cost_array(arrays, group, "names of probes", history->probe_name, history->probe_count,
+                      sizeof *history->probe_name);
+    solver_cost_array(arrays, group, "places of probes", history->probe_X, history->probe_count,
+                      sizeof *history->probe_X);
+    if (run->history_room > 0) { /* make_room */
+        solver_cost_bytes(arrays, group, "conserved quantities", run->history_room * sizeof *history->totals);
+        solver_cost_bytes(arrays, group, "probes", 2 * (run->history_room * probes + 1) * sizeof(double));
+    }
+}
+
 void solver_run_output_free(struct solver_run *run)
 {
     free(run->output);

@@ -332,6 +332,8 @@ int solver_scene_wall(const struct solver_scene *scene, int face);
 
 /* Whether the scene gives this formula. */
 bool solver_scene_has(const struct solver_scene *scene, enum solver_formula formula);
+/* As if the scene did not give it; one that its keys need is not to be forgotten. */
+void solver_scene_forget(struct solver_scene *scene, enum solver_formula formula);
 /* Evaluates a formula at X [m] (3 entries) and t [s]: `count` numbers into out. Runs under an instruction budget;
  * errors name file, key and place. Not thread-safe: one interpreter per scene. */
 bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula formula, const double X[3], double t,

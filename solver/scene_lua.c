@@ -211,6 +211,12 @@ static bool is_driven(const struct solver_scene *scene, enum solver_formula form
     return scene->drive != NULL && (formula == SOLVER_BODY_FORCE || formula >= SOLVER_FACE_X0);
 }
 
+void solver_scene_forget(struct solver_scene *scene, enum solver_formula formula)
+{
+    luaL_unref(scene->lua->L, LUA_REGISTRYINDEX, scene->lua->formula[formula]);
+    scene->lua->formula[formula] = LUA_NOREF;
+}
+
 bool solver_scene_has(const struct solver_scene *scene, enum solver_formula formula)
 {
     bool given = (scene->start != NULL && formula <= SOLVER_INITIAL_F) || is_driven(scene, formula);

@@ -74,6 +74,9 @@ struct solver_scheme {
     bool (*create)(const struct solver_body *body, void **system, struct solver_error *error);
     void (*destroy)(void *system);
     struct solver_geometry (*geometry)(const void *system);
+    /* What it has allocated but for its fields, and what its right-hand side computes (cost.h). */
+    void (*arrays)(const void *system, struct solver_cost_arrays *arrays);
+    void (*terms)(const void *system, struct solver_cost_terms *terms);
     /* Fills the table of fields (state.h) and returns its rows. */
     size_t (*fields)(void *system, struct solver_field table[SOLVER_STATE_FIELDS]);
     /* The other fields of the initial state; v and x are there. */

@@ -121,6 +121,21 @@ static void rates(const void *of, size_t begin, size_t end)
     loops_of(system)->rates(&system->base.work, &system->jst, begin, end);
 }
 
+static void rate_terms(const void *of, struct solver_cost_terms *terms)
+{
+    const struct system *system = of;
+    loops_of(system)->terms(&system->base.work, &system->jst, system->base.body->cloud->count, terms);
+}
+
+static void arrays(const void *of, struct solver_cost_arrays *list)
+{
+    const struct system *system = of;
+    size_t pairs = system->base.stencil->pairs;
+    solver_upwind_arrays(of, list);
+    solver_cost_array(list, "scheme", "Laplacian", system->laplacian, 2 * pairs, sizeof *system->laplacian);
+    solver_cost_array(list, "scheme", "harmonic weights", system->exchange, pairs, sizeof *system->exchange);
+}
+
 static bool create(const struct solver_body *body, void **out, struct solver_error *error)
 {
     const struct solver_scene *scene = body->scene;
@@ -132,10 +147,15 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
     struct system *system = made;
     system->base.gather = gather;
     system->base.rates = rates;
+    system->base.terms = rate_terms;
     if (!make_weights(system, scene->jst.kappa2 > 0.0, system->base.work.reconstruct, error)) {
         destroy(system);
         return false;
     }
+    /* the Laplacian was corrected by them; no step reads them */
+    free(system->base.stencil->least_squares);
+    system->base.stencil->least_squares = NULL;
+    system->base.work.least_squares = NULL;
     system->jst.harmonic = scene->jst.kappa2 * dx;
     system->jst.fades = scene->jst.fades;
     system->jst.elastic = scene->jst.kappa4;
@@ -185,5 +205,7 @@ const struct solver_scheme solver_scheme_jst = {
     .destroy = destroy,
     .geometry = geometry,
     .fields = fields,
+    .arrays = arrays,
+    .terms = solver_upwind_terms,
     SOLVER_UPWIND_SHARED,
 };

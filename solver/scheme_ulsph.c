@@ -152,6 +152,30 @@ static struct solver_geometry geometry(const void *of)
     };
 }
 
+static void arrays(const void *of, struct solver_cost_arrays *list)
+{
+    static const char group[] = "scheme";
+    const struct system *system = of;
+    const struct solver_cloud *cloud = system->body->cloud;
+    size_t record = (size_t)cloud->dim + 2;
+    solver_skin_arrays(&system->skin, "neighbours", list);
+    solver_cost_array(list, group, "pair records", system->pair, system->pair_room * record, sizeof *system->pair);
+    solver_cost_array(list, group, "masses", system->mass, cloud->count, sizeof *system->mass);
+    solver_cost_array(list, group, "masses of whole cells",
+                      system->full_mass != system->mass ? system->full_mass : NULL, cloud->count,
+                      sizeof *system->full_mass);
+    solver_cost_array(list, group, "itself", system, 1, sizeof *system);
+}
+
+static void terms(const void *of, struct solver_cost_terms *list)
+{
+    const struct system *system = of;
+    double particles = (double)system->body->cloud->count;
+    system->loops->terms(&system->work, system->body->cloud->count, list);
+    solver_cost_term(list, "whether particles moved", 0, particles * 3.0 * system->body->cloud->dim);
+    solver_cost_term(list, "whether the step is too long", 0, particles);
+}
+
 static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
 {
     struct system *system = of;
@@ -418,6 +442,8 @@ const struct solver_scheme solver_scheme_ulsph = {
     .destroy = destroy,
     .geometry = geometry,
     .fields = fields,
+    .arrays = arrays,
+    .terms = terms,
     .start = start,
     .evaluate = evaluate,
     .refresh = refresh,

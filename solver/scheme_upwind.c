@@ -79,6 +79,7 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
         return false;
     }
     system->body = body;
+    system->size = size;
     choose_terms(system, model->in[scene->dim - 1]);
     if (!make_stencil(system, builder, error)) {
         solver_upwind_destroy(system);
@@ -123,6 +124,27 @@ struct solver_geometry solver_upwind_geometry(const void *of)
     };
 }
 
+void solver_upwind_arrays(const void *of, struct solver_cost_arrays *arrays)
+{
+    const struct solver_upwind_system *system = of;
+    solver_stencil_arrays(system->stencil, arrays);
+    solver_cost_array(arrays, "scheme", "itself", system, 1, system->size);
+}
+
+void solver_upwind_terms(const void *of, struct solver_cost_terms *terms)
+{
+    const struct solver_upwind_system *system = of;
+    const struct solver_upwind *work = &system->work;
+    size_t count = system->body->cloud->count;
+    system->loops->gradient_terms(work, count, terms);
+    if (system->terms != NULL) {
+        system->terms(system, terms);
+    } else {
+        system->loops->rate_terms(work, count, terms);
+    }
+    system->loops->particle_terms(work, count, terms);
+}
+
 size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
 {
     struct solver_upwind_system *system = of;
@@ -132,6 +154,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     size_t tensor = dim * vector;
     bool pressure = work->evolves_J && !work->whole_jump && system->rates == NULL;
     bool slopes = work->reconstruct && system->rates == NULL;
+    bool placed = system->rates == NULL && (work->frozen || work->reconstruct || work->evolves_J);
     size_t remembered = work->hardening != NULL ? work->material->flow->width : 0;
     const struct solver_field rows[] = {
         {"v", vector, true, &work->v, &work->v_rate, 0},
@@ -139,7 +162,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
         {"F", tensor, true, &work->F, &work->F_rate, 0},
         {"H", work->evolves_H ? tensor : 0, true, &work->H, &work->H_rate, 0},
         {"J", work->evolves_J ? 1 : 0, true, &work->J, &work->J_rate, 0},
-        {"X", vector, false, &work->X, NULL, 0},
+        {"X", placed ? vector : 0, false, &work->X, NULL, 0},
         {"P", tensor, false, &work->P, NULL, 0},
         {"cof F", work->evolves_J && !work->evolves_H && !work->frozen ? tensor : 0, false, &work->cofactor, NULL, 0},
         {"U'(J)", pressure ? 1 : 0, false, &work->pressure, NULL, 0},
@@ -189,7 +212,9 @@ bool solver_upwind_start(void *of, struct solver_error *error)
         double X[3] = {0};
         double F[9];
         memcpy(X, cloud->X + a * dim, dim * sizeof *X);
-        memcpy(work->X + a * lanes, X, dim * sizeof *X);
+        if (work->X != NULL) {
+            memcpy(work->X + a * lanes, X, dim * sizeof *X);
+        }
         if (!solver_scene_has(scene, SOLVER_INITIAL_F)) {
             discrete_F(system, a, F);
         } else if (!solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {
@@ -501,5 +526,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .correct = correct,
     .keep = keep,
     .iterations = iterations,
+    .arrays = solver_upwind_arrays,
+    .terms = solver_upwind_terms,
     SOLVER_UPWIND_SHARED,
 };

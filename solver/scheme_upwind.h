@@ -22,6 +22,9 @@ struct solver_upwind_system {
      * read what the first has left at neighbours. */
     void (*gather)(const void *system, size_t begin, size_t end);
     void (*rates)(const void *system, size_t begin, size_t end);
+    /* The operations of both, in place of those of Riemann's dissipation and of the rates. */
+    void (*terms)(const void *system, struct solver_cost_terms *terms);
+    size_t size; /* of the struct */
 };
 
 /* `size`: of the struct that starts with the system. */
@@ -30,6 +33,8 @@ void solver_upwind_destroy(void *of);
 /* The others, as in the table of schemes. */
 struct solver_geometry solver_upwind_geometry(const void *of);
 size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS]);
+void solver_upwind_arrays(const void *of, struct solver_cost_arrays *arrays);
+void solver_upwind_terms(const void *of, struct solver_cost_terms *terms);
 bool solver_upwind_start(void *of, struct solver_error *error);
 bool solver_upwind_prepare(void *of, double dt, struct solver_error *error);
 bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *error);

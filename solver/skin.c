@@ -111,6 +111,16 @@ size_t solver_skin_pairs(const struct solver_skin *skin)
     return skin->updates > 0 ? skin->graph.row[skin->cloud->count] : 0;
 }
 
+void solver_skin_arrays(const struct solver_skin *skin, const char *group, struct solver_cost_arrays *arrays)
+{
+    if (skin->built != NULL) {
+        size_t dim = (size_t)skin->cloud->dim;
+        solver_graph_arrays(&skin->graph, group, arrays);
+        solver_cost_array(arrays, group, "places when listed", skin->built, skin->cloud->count * dim,
+                          sizeof *skin->built);
+    }
+}
+
 size_t solver_skin_bytes(const struct solver_skin *skin)
 {
     size_t count = skin->cloud->count;

@@ -29,6 +29,7 @@ bool solver_skin_keep(struct solver_skin *skin, const char *name, struct solver_
                       struct solver_error *error);
 /* Pairs of the list, both ways. */
 size_t solver_skin_pairs(const struct solver_skin *skin);
+void solver_skin_arrays(const struct solver_skin *skin, const char *group, struct solver_cost_arrays *arrays);
 size_t solver_skin_bytes(const struct solver_skin *skin);
 
 #endif

@@ -73,3 +73,33 @@ double solver_state_bytes_per_particle(const struct solver_state *state, bool wi
     }
     return (double)(doubles * sizeof(double));
 }
+
+void solver_state_arrays(const struct solver_state *state, struct solver_cost_arrays *arrays)
+{
+    size_t copies = state->sum != NULL ? 4 : 3; /* now, at the start, rate and sum */
+    size_t named = 0;
+    size_t fixed = 0;
+    for (size_t i = 0; i < state->field_count; i++) {
+        const struct solver_field *field = &state->field[i];
+        size_t bytes = state->count * field->width * sizeof(double) * (field->evolved ? copies : 1);
+        solver_cost_bytes(arrays, field->evolved ? "evolved" : "fields", field->name, bytes);
+        named += bytes;
+        fixed += field->evolved ? 0 : (state->count + 7) / 8 * 8 * field->width;
+    }
+    size_t blocks =
+        copies * solver_alloc_bytes(state->evolved, sizeof(double)) + solver_alloc_bytes(fixed, sizeof(double));
+    solver_cost_bytes(arrays, "fields", "alignment", blocks - named);
+}
+
+void solver_state_terms(const struct solver_state *state, const struct solver_integrator *integrator,
+                        struct solver_cost_terms *terms)
+{
+    /* run_step.c, update_slice: of an entry in the first stage and in later ones */
+    double first = integrator->needs_sum ? 4 : 3;
+    double later = integrator->needs_sum ? 10 : 6;
+    double entries = 0.0;
+    for (size_t i = 0; i < state->field_count && state->field[i].evolved; i++) {
+        entries += (double)(state->count * state->field[i].width);
+    }
+    solver_cost_once(terms, "stages of the integrator", entries * (first + later * (double)(integrator->stages - 1)));
+}

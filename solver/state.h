@@ -3,6 +3,7 @@
 #ifndef SOLVER_STATE_H
 #define SOLVER_STATE_H
 
+#include "solver/cost.h"
 #include "solver/error.h"
 #include "solver/integrator.h"
 
@@ -47,5 +48,10 @@ bool solver_state_create(struct solver_state *state, size_t count, int dim, cons
 void solver_state_free(struct solver_state *state);
 /* Of the scheme's fields alone, and with the integrator's copies. */
 double solver_state_bytes_per_particle(const struct solver_state *state, bool with_integrator);
+/* By field, with all the integrator's copies, and what aligns them. */
+void solver_state_arrays(const struct solver_state *state, struct solver_cost_arrays *arrays);
+/* Of the integrator's stages. */
+void solver_state_terms(const struct solver_state *state, const struct solver_integrator *integrator,
+                        struct solver_cost_terms *terms);
 
 #endif

@@ -226,6 +226,22 @@ bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const stru
     return true;
 }
 
+void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_cost_arrays *arrays)
+{
+    static const char group[] = "stencil";
+    size_t dim = (size_t)stencil->dim;
+    solver_graph_arrays(&stencil->graph, group, arrays);
+    solver_cost_array(arrays, group, "pair vectors and areas", stencil->pair, stencil->pairs * (dim + 1),
+                      sizeof(double));
+    solver_cost_array(arrays, group, "transposed", stencil->transposed, stencil->pairs * dim, sizeof(double));
+    solver_cost_array(arrays, group, "least squares", stencil->least_squares, stencil->pairs * dim, sizeof(double));
+    solver_cost_array(arrays, group, "row sums", stencil->row_sum, stencil->count * dim, sizeof(double));
+    solver_cost_array(arrays, group, "volumes", stencil->V, stencil->count, sizeof(double));
+    solver_cost_array(arrays, group, "face points", stencil->face_point, stencil->face_point_count,
+                      sizeof *stencil->face_point);
+    solver_cost_array(arrays, group, "itself", stencil, 1, sizeof *stencil);
+}
+
 size_t solver_stencil_bytes(const struct solver_stencil *stencil)
 {
     size_t dim = (size_t)stencil->dim;
@@ -241,7 +257,7 @@ size_t solver_stencil_bytes(const struct solver_stencil *stencil)
 /* Keeps the larger of two, and a NaN, which fmax would lose. */
 static double worse(double worst, double next)
 {
-    return isnan(worst) || worst >= next ? worst : next;
+    return isnan(worst) || isgreaterequal(worst, next) ? worst : next;
 }
 
 struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil *stencil,

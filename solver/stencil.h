@@ -11,6 +11,7 @@
 #define SOLVER_STENCIL_H
 
 #include "solver/cloud.h"
+#include "solver/cost.h"
 #include "solver/graph.h"
 
 struct solver_stencil {
@@ -60,6 +61,7 @@ void solver_stencil_free(struct solver_stencil *stencil);
 /* Adds the weights of the least-squares gradient. */
 bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const struct solver_cloud *cloud,
                                       struct solver_error *error);
+void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_cost_arrays *arrays);
 size_t solver_stencil_bytes(const struct solver_stencil *stencil);
 
 /* How well a stencil keeps its promises: largest violations over all particles, each relative to the size of what it

@@ -125,7 +125,7 @@ static double residuals(struct projection *work, const double *area)
     double face = pow(work->cloud->spacing, (double)dim - 1.0);
     for (size_t i = 0; i < dim * count * width; i++) {
         double size = fabs(work->residual[i]) / face;
-        worst = isnan(worst) || worst >= size ? worst : size; /* a NaN stays, which fmax would lose */
+        worst = isnan(worst) || isgreaterequal(worst, size) ? worst : size; /* a NaN stays, which fmax would lose */
     }
     return worst;
 }

@@ -216,6 +216,8 @@ static bool build(const struct solver_cloud *cloud, const struct line_operator *
          solver_alloc((void **)&graph->neighbour, graph->row[cloud->count], sizeof *graph->neighbour, "neighbour graph",
                       error) &&
          solver_stencil_reserve(stencil, cloud, error);
+    graph->row_room = ok ? cloud->count + 1 : 0;
+    graph->neighbour_room = ok ? graph->row[cloud->count] : 0;
     for (size_t a = 0; ok && a < cloud->count; a++) {
         size_t found = list_pairs(cloud, line, particle_at, a, pairs);
         stencil->V[a] = measure(cloud, line, a, 3);

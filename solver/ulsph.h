@@ -6,6 +6,7 @@
 #ifndef SOLVER_ULSPH_H
 #define SOLVER_ULSPH_H
 
+#include "solver/cost.h"
 #include "solver/material.h"
 #include "solver/scene.h"
 
@@ -59,6 +60,8 @@ struct solver_ulsph_loops {
     void (*gradients)(const struct solver_ulsph *work, size_t begin, size_t end);
     /* v_rate without loads (eq. 51), density diffusion. Reads gradients and stresses of neighbours. */
     void (*rates)(const struct solver_ulsph *work, size_t begin, size_t end);
+    /* Operations (cost.h), of all particles. */
+    void (*terms)(const struct solver_ulsph *work, size_t count, struct solver_cost_terms *terms);
     /* First particle in [begin, end) whose state is broken (NaN, or rho <= 0), else end. */
     size_t (*first_broken)(const struct solver_ulsph *work, size_t begin, size_t end);
 };

@@ -1,6 +1,7 @@
 #include "solver/ulsph.h"
 
 #include "solver/dim.h"
+#include "solver/dim_flops.h"
 #include "solver/dim_spectral.h"
 
 #include <math.h>
@@ -349,11 +350,75 @@ static size_t first_broken(const struct solver_ulsph *work, size_t begin, size_t
     return end;
 }
 
+/* --- operations (cost.h) --- */
+
+enum { APPLY = (2 * DIM - 1) * LANES, TIMES = DIM * APPLY, SOUND = 2 };
+
+static void geometry_terms(const struct solver_ulsph *work, double pairs, double particles,
+                           struct solver_cost_terms *terms)
+{
+    double kernel_flops = LANES + FLOPS_DOT + 2.0 + 13.0;
+    double moments = DIM * (2.0 + 2.0 * LANES);
+    double positive = DIM == 1   ? 0.0
+                      : DIM == 2 ? 10.0 + SOLVER_COST_FUNCTION + FLOPS_TENSOR
+                                 : FLOPS_SPECTRUM + DIM * DIM * (1.0 + 2.0 * LANES);
+    solver_cost_term(terms, "pair records", 1, pairs * kernel_flops + particles * 2.0);
+    solver_cost_term(terms, "corrective matrix L", 1,
+                     pairs * moments +
+                         (work->L != NULL ? particles * (FLOPS_DETERMINANT + FLOPS_COFACTOR + FLOPS_TENSOR) : 0.0));
+    solver_cost_term(terms, "colour", 1, pairs * 2.0);
+    solver_cost_term(terms, "transport velocity", 1,
+                     pairs * (4.0 + 3.0 * LANES) + (work->transport != work->v ? particles * 2.0 * LANES : 0.0));
+    solver_cost_term(terms, "stress", 0, particles * (3.0 + DIM + TIMES));
+    solver_cost_term(terms, "tensile part of the stress", 0,
+                     work->tensile_L != NULL ? particles * (positive + TIMES) : 0.0);
+}
+
+static void gradient_terms(const struct solver_ulsph *work, double pairs, double particles,
+                           struct solver_cost_terms *terms)
+{
+    double of_vector = pairs * (LANES + FLOPS_ADD_SCALED) + particles * TIMES;
+    solver_cost_term(terms, "gradient of the transport velocity", 2, pairs * (1.0 + LANES) + of_vector);
+    solver_cost_term(terms, "gradient of v", 2, work->v_gradient != NULL ? of_vector : 0.0);
+    solver_cost_term(terms, "gradient of rho", 2,
+                     work->rho_gradient != NULL ? pairs * (1.0 + 2.0 * LANES) + particles * APPLY : 0.0);
+    solver_cost_term(terms, "rates of rho and S", 0,
+                     particles * (FLOPS_TRACE + 6.0 * FLOPS_TENSOR + 3.0 * DIM + TIMES + 1.0));
+    solver_cost_term(terms, "whether a particle is within", 2,
+                     work->inner != NULL ? pairs * (FLOPS_DOT + 1.0) + particles : 0.0);
+}
+
+static void rate_terms(const struct solver_ulsph *work, double pairs, double particles, struct solver_cost_terms *terms)
+{
+    double riemann = FLOPS_DOT + LANES + 2.0 * APPLY + 3.0 * LANES + 3.0 + FLOPS_DOT + 6.0;
+    double viscous = 2.0 * FLOPS_DOT + LANES + 2.0 * SOUND + 2.0 + 11.0;
+    bool inviscid = work->terms.dissipation == SOLVER_ULSPH_INVISCID;
+    solver_cost_term(terms, "internal force", 3, pairs * (3.0 + 2.0 * APPLY + 5.0 * LANES));
+    solver_cost_term(terms, "tension", 3, work->tensile_L != NULL ? pairs * (2.0 * APPLY + 5.0 * LANES + 12.0) : 0.0);
+    solver_cost_term(terms, "dissipation", 3,
+                     inviscid ? 0.0 : pairs * (2.0 + 2.0 * LANES + (work->v_gradient != NULL ? riemann : viscous)));
+    solver_cost_term(terms, "density diffusion", 3,
+                     work->rho_gradient != NULL ? pairs * (LANES + 2.0 + FLOPS_DOT + 4.0) + particles * (4.0 + SOUND)
+                                                : 0.0);
+}
+
+static void terms_of(const struct solver_ulsph *work, size_t count, struct solver_cost_terms *terms)
+{
+    double pairs = (double)work->row[count];
+    double particles = (double)count;
+    geometry_terms(work, pairs, particles, terms);
+    gradient_terms(work, pairs, particles, terms);
+    rate_terms(work, pairs, particles, terms);
+    solver_cost_term(terms, "volumes and impedance", 0, particles * (work->root_rho != NULL ? 7.0 : 2.0));
+    solver_cost_once(terms, "whether the state is whole", particles * (FLOPS_DOT + FLOPS_CONTRACT));
+}
+
 const struct solver_ulsph_loops DIM_NAME(solver_ulsph) = {
     .lanes = LANES,
     .volumes = volumes,
     .geometry = geometry,
     .gradients = gradients,
     .rates = rates,
+    .terms = terms_of,
     .first_broken = first_broken,
 };

@@ -3,6 +3,7 @@
 #ifndef SOLVER_UPWIND_H
 #define SOLVER_UPWIND_H
 
+#include "solver/cost.h"
 #include "solver/material.h"
 
 #include <stddef.h>
@@ -30,7 +31,7 @@ struct solver_upwind {
      * is continuous where materials meet. */
     double *v, *x, *F, *H, *J; /* evolved */
     double *v_rate, *x_rate, *F_rate, *H_rate, *J_rate;
-    double *X;                    /* reference positions [m] */
+    double *X;                    /* reference positions [m]; NULL where only their pair vectors are needed */
     double *P;                    /* stress */
     double *cofactor;             /* H, or cof F where H is not evolved but the equation of J needs it */
     double *v_gradient;           /* tensor: least-squares gradient of v; NULL: F_rate serves */
@@ -54,6 +55,10 @@ struct solver_upwind_loops {
     void (*stresses)(const struct solver_upwind *work, size_t begin, size_t end);
     /* First particle in [begin, end) whose state is broken (NaN, or J <= 0), else end. */
     size_t (*first_broken)(const struct solver_upwind *work, size_t begin, size_t end);
+    /* Operations: of the gradients; of the rates; of stresses, checks and the step. */
+    void (*gradient_terms)(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms);
+    void (*rate_terms)(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms);
+    void (*particle_terms)(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms);
     /* H and J of F, linearised for a material with linear kinematics; either may be NULL. */
     void (*measures)(bool linear, size_t begin, size_t end, const double *F, double *H, double *J);
 };

@@ -1,5 +1,6 @@
 #include "solver/upwind.h"
 
+#include "solver/dim_flops.h"
 #include "solver/dim_sums.h"
 
 #include <math.h>
@@ -167,7 +168,8 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
     const double *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
     struct impedances z = {of_a->zp, of_a->zs};
-    vec X_a = load(work->X + a * LANES);
+    bool placed = terms.frozen || terms.reconstruct || terms.volume; /* else X need not be there */
+    vec X_a = placed ? load(work->X + a * LANES) : (vec){0};
     vec x_a = load((terms.frozen ? work->X : work->x) + a * LANES);
     vec v_a = load(work->v + a * LANES);
     struct tensor slope_a = load_tensor(slope + a * TENSOR);
@@ -176,7 +178,7 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
         const double *C = work->pair + ab * PAIR;
         const double *D = terms.transposed ? work->transposed + ab * DIM : C;
         const double *P_b = work->P + b * TENSOR;
-        vec distance = load(work->X + b * LANES) - X_a;
+        vec distance = placed ? load(work->X + b * LANES) - X_a : (vec){0};
         vec along = terms.frozen ? distance : load(work->x + b * LANES) - x_a;
         vec jump = load(work->v + b * LANES) - v_a;
         bool alike = true;
@@ -289,11 +291,89 @@ static void measures(bool linear, size_t begin, size_t end, const double *F, dou
     }
 }
 
+/* --- operations (cost.h) --- */
+
+static void gradient_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
+{
+    double pairs = (double)work->row[count];
+    double particles = (double)count;
+    double of_vector = pairs * (LANES + FLOPS_ADD_SCALED);
+    bool own = work->least_squares != NULL;
+    solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (1.0 + FLOPS_TENSOR));
+    if (work->v_gradient != NULL) {
+        solver_cost_term(terms, "gradient of v by least squares", 1, of_vector);
+    }
+    if (work->pressure_gradient != NULL) {
+        solver_cost_term(terms, own ? "gradient of U'(J) by least squares" : "gradient of U'(J)", 1,
+                         pairs * (1.0 + 2.0 * DIM) + particles * LANES);
+    }
+    if (work->P_gradient != NULL) {
+        solver_cost_term(terms, own ? "gradient of P by least squares" : "gradient of P", 1,
+                         pairs * DIM * (LANES + FLOPS_ADD_SCALED) + particles * DIM * FLOPS_TENSOR);
+    }
+}
+
+/* Of one pair: what reconstruction takes from the jump of a vector along each axis. */
+enum { RECONSTRUCTION = DIM * (3 * LANES + 1) };
+
+static void volume_terms(const struct solver_upwind *work, double pairs, struct solver_cost_terms *terms)
+{
+    double area = work->frozen ? 0.0 : RECONSTRUCTION; /* of the same form */
+    double jump = work->whole_jump ? 3.0 * FLOPS_TENSOR + FLOPS_DOT : 2.0;
+    double slope = work->whole_jump ? DIM * RECONSTRUCTION : LANES + FLOPS_DOT + 2.0;
+    solver_cost_term(terms, "dissipation of J", 2, pairs * (area + FLOPS_DOT + jump + 5.0 + 2.0 * FLOPS_DOT));
+    solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? pairs * slope : 0.0);
+}
+
+static void rate_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
+{
+    double pairs = (double)work->row[count];
+    double vectors = 1.0 + (work->X != NULL ? 1.0 : 0.0) + (work->frozen ? 0.0 : 1.0); /* jump, distance, along */
+    double flux = FLOPS_DOT_AND_SQUARE + 5.0 * LANES + 3.0;
+    solver_cost_term(terms, "internal force", 2, pairs * FLOPS_ADD_SCALED);
+    solver_cost_term(terms, "dissipation of p", 2, pairs * (vectors * LANES + flux));
+    solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * RECONSTRUCTION : 0.0);
+    solver_cost_term(terms, "impedances where materials meet", 2, work->stride != 0 ? pairs * 8.0 : 0.0);
+    if (work->evolves_J) {
+        volume_terms(work, pairs, terms);
+    }
+}
+
+static void particle_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
+{
+    double particles = (double)count;
+    const struct solver_material *material = work->material;
+    bool cofactor = work->cofactor != NULL;
+    bool flows = work->flown != NULL;
+    int stress = flows ? material->flow->stress_flops(cofactor, work->J != NULL)
+                       : material->stress_flops(cofactor, work->J != NULL);
+    int fastest = flows ? material->flow->fastest_flops : material->fastest_flops;
+    solver_cost_term(terms, "rate of v", 0, particles * (3.0 + FLOPS_ADD_SCALED + 2.0 * LANES));
+    if (work->evolves_J) {
+        solver_cost_term(terms, "rate of J", 0, particles * (4.0 + (work->frozen ? FLOPS_TRACE : FLOPS_CONTRACT)));
+    }
+    if (work->evolves_H) {
+        solver_cost_term(terms, "rate of H", 0, particles * FLOPS_TENSOR_CROSS);
+    } else if (cofactor) {
+        solver_cost_term(terms, "cofactor of F", 0, particles * FLOPS_COFACTOR);
+    }
+    if (work->pressure != NULL) {
+        solver_cost_term(terms, "U'(J)", 0, particles * material->volumetric_flops);
+    }
+    solver_cost_term(terms, flows ? "stress and plastic flow" : "stress", 0, particles * stress);
+    solver_cost_once(terms, "length of the step", particles * fastest);
+    solver_cost_once(terms, "whether the state is whole",
+                     particles * (FLOPS_DOT + FLOPS_CONTRACT + (work->J != NULL ? 0.0 : FLOPS_DETERMINANT)));
+}
+
 const struct solver_upwind_loops DIM_NAME(solver_upwind) = {
     .lanes = LANES,
     .gradients = gradients,
     .rates = rates,
     .stresses = stresses,
     .first_broken = first_broken,
+    .gradient_terms = gradient_terms,
+    .rate_terms = rate_terms,
+    .particle_terms = particle_terms,
     .measures = measures,
 };

@@ -123,7 +123,8 @@ bool solver_wall_create(const struct solver_body *body, const struct solver_geom
     const struct solver_scene *scene = body->scene;
     size_t count = body->cloud->count;
     bool *marked = NULL;
-    *wall = (struct solver_wall){.dim = (size_t)body->cloud->dim, .reach = body->cloud->spacing};
+    *wall = (struct solver_wall){
+        .dim = (size_t)body->cloud->dim, .reach = body->cloud->spacing, .accounted = body->scene->balance};
     if (!has_plane(scene) && scene->die_count == 0) {
         return true;
     }
@@ -270,7 +271,7 @@ void solver_wall_begin(struct solver_wall *wall, const struct solver_state *stat
         memset(site->given, 0, sizeof site->given);
     }
     stop(wall, state, 1.0, wall->impulse);
-    for (size_t s = 0; s < wall->count; s++) {
+    for (size_t s = 0; wall->accounted && s < wall->count; s++) {
         struct solver_wall_site *site = &wall->site[s];
         for (size_t i = 0; i < wall->dim; i++) {
             wall->taken -= site->mass * site->given[i] * (site->start[i] + 0.5 * site->given[i]);
@@ -293,7 +294,7 @@ void solver_wall_stop(struct solver_wall *wall, const struct solver_state *state
 
 void solver_wall_end(struct solver_wall *wall, const struct solver_state *state)
 {
-    for (size_t s = 0; s < wall->count; s++) {
+    for (size_t s = 0; wall->accounted && s < wall->count; s++) {
         const struct solver_wall_site *site = &wall->site[s];
         const double *end = state->v + site->particle * state->lanes;
         for (size_t i = 0; i < wall->dim; i++) {
@@ -310,4 +311,18 @@ bool solver_wall_keep(struct solver_wall *wall, struct solver_keeper *keeper, st
     return wall->count == 0 ||
            (solver_keep(keeper, "impulse on the wall", wall->impulse, sizeof wall->impulse, error) &&
             solver_keep(keeper, "energy taken by the wall", &wall->taken, sizeof wall->taken, error));
+}
+
+void solver_wall_arrays(const struct solver_wall *wall, size_t particles, struct solver_cost_arrays *arrays)
+{
+    solver_cost_array(arrays, "wall", "places that may meet it", wall->site, particles, sizeof *wall->site);
+}
+
+/* Where there is one plane: paths are looked up, and asked at the particles near them alone. */
+void solver_wall_terms(const struct solver_wall *wall, int stages, struct solver_cost_terms *terms)
+{
+    double dim = (double)wall->dim;
+    double account = wall->accounted ? 11.0 * dim : 0.0;
+    solver_cost_once(terms, "wall",
+                     (double)wall->count * (3.0 * dim + 1.0 + (1.0 + (double)stages) * 4.0 * dim + account));
 }

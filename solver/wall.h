@@ -58,7 +58,8 @@ struct solver_wall {
     double reach;               /* [m] from which on they count */
     double impulse[3];          /* [N s] handed to walls since the start */
     double stepping[3];         /* by the stages of this step, which may yet fail */
-    double taken;               /* [J] of the energy, by impacts since the start */
+    bool accounted;             /* the scene's balance asks what impacts take */
+    double taken;               /* [J] of the energy, by impacts since the start; 0 unless accounted */
 };
 
 /* The walls of the body's scene; `geometry` is that of its scheme, `faces` are there. Refuses (SOLVER_BAD_INPUT)
@@ -66,6 +67,9 @@ struct solver_wall {
  * normal. One that is held or moved along all of it goes where it is led. */
 bool solver_wall_create(const struct solver_body *body, const struct solver_geometry *geometry,
                         const struct solver_faces *faces, struct solver_wall *wall, struct solver_error *error);
+void solver_wall_arrays(const struct solver_wall *wall, size_t particles, struct solver_cost_arrays *arrays);
+/* Where nothing is stopped. */
+void solver_wall_terms(const struct solver_wall *wall, int stages, struct solver_cost_terms *terms);
 void solver_wall_free(struct solver_wall *wall);
 /* Refuses (SOLVER_BAD_INPUT) a body of which a part lies behind the wall. */
 bool solver_wall_check(const struct solver_wall *wall, const struct solver_body *body, const struct solver_state *state,

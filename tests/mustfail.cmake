@@ -91,7 +91,7 @@ function(assay_unit_mutant name unit test)
     set(libraries assay_verify)
   endif()
   assay_mutate(${name} ${libraries})
-  add_executable(mutant_${name} ${objects} unit/${unit}.c unit/unit.c)
+  add_executable(mutant_${name} ${objects} unit/${unit}.c ${unit_frame})
   string(REGEX MATCH "^[a-z]+" room ${unit})
   target_link_libraries(mutant_${name} PRIVATE assay_${room} PkgConfig::CUNIT)
   assay_test(mustfail-${name} LABELS unit mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/mustfail_unit.sh ${test}

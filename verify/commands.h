@@ -15,6 +15,7 @@ int verify_command_render(const struct verify_options *options);
 int verify_command_golden(const struct verify_options *options);
 int verify_command_compare(const struct verify_options *options);
 int verify_command_bench(const struct verify_options *options);
+int verify_command_cost(const struct verify_options *options);
 int verify_command_judge(const struct verify_options *options);
 int verify_command_oracle(const struct verify_options *options);
 /* `extremes`: see extremes.h. */

@@ -4,6 +4,7 @@
 #include "verify/manual.h"
 #include "verify/signals.h"
 #include "verify/suggest.h"
+#include "verify/trap.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -137,6 +138,20 @@ static const struct verify_command commands[] = {
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_JSON,
      .most = 1,
      .run = verify_command_extremes},
+    {.name = "cost",
+     .operands = "SCENE",
+     .summary = "what a scene switches on, what each item costs, and what leaving it out would save",
+     .help =
+         "Prints the memory of every array [B/particle] and the operations of every term [flop/particle-step], as\n"
+         "declared beside the code and held to the allocator and to counted operations by tests; the time of a\n"
+         "particle's step as measured [ns], on one thread unless --set threads says otherwise; and all three for the\n"
+         "scene without each item that a key can leave out. A measurement, not a test.\n\n"
+         "  assay cost swinging-cube\n"
+         "  assay cost taylor-bar --set n=2 --json cost.json",
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_JSON,
+     .least = 1,
+     .most = 1,
+     .run = verify_command_cost},
     {.name = "judge",
      .operands = "FILE...",
      .summary = "results of any solver against an oracle, with gates",
@@ -206,6 +221,7 @@ static int flushed(int code)
 
 int main(int argc, char **argv)
 {
+    verify_trap_from_environment();
     if (argc < 2) {
         print_help(stderr);
         return VERIFY_BAD_INPUT;

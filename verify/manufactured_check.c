@@ -31,7 +31,7 @@ struct distance {
 
 static double worse(double a, double b)
 {
-    return isnan(a) || a > b ? a : b;
+    return isnan(a) || isgreater(a, b) ? a : b;
 }
 
 static void compare(struct distance *d, const double *a, const double *b, size_t count)
@@ -213,7 +213,7 @@ static void check_volume(struct check *check)
         sample(check, i, at);
         check->kind->state(check->oracle, at, at[3], &state);
         double J = oracle_jacobian(&state);
-        smallest = isnan(J) || J < smallest ? J : smallest;
+        smallest = isnan(J) || isless(J, smallest) ? J : smallest;
         kept.error = worse(fabs(J - 1), kept.error);
     }
     add_line(check, "det F > 0", smallest > 0 ? 0 : 1, 0.5);

@@ -13,7 +13,7 @@ bool verify_drift(const struct verify_measuring *in, const struct verify_argumen
     for (size_t i = 0; i < history->count; i++) {
         const double *u = history->probe_u + 3 * (i * history->probe_count + argument[0].probe);
         double off = hypot(u[(axis + 1) % 3], u[(axis + 2) % 3]);
-        *value = off <= *value || isnan(*value) ? *value : off; /* a NaN stays */
+        *value = islessequal(off, *value) || isnan(*value) ? *value : off; /* a NaN stays */
     }
     return true;
 }
@@ -63,7 +63,7 @@ bool verify_energy_rise(const struct verify_measuring *in, const struct verify_a
         double energy = now->kinetic + now->strain - now->external;
         lowest = fmin(lowest, energy);
         supply = fmax(supply, now->kinetic + now->strain);
-        *value = energy - lowest <= *value || isnan(*value) ? *value : energy - lowest; /* a NaN stays */
+        *value = islessequal(energy - lowest, *value) || isnan(*value) ? *value : energy - lowest; /* a NaN stays */
     }
     *value /= supply;
     return true;

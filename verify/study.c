@@ -6,10 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Errors that are not there are NaN, and one may be zero: neither is computed with. */
 double verify_order(double e1, double h1, double e2, double h2)
 {
-    bool sensible = e1 >= 0 && e2 >= 0 && h1 > 0 && h2 > 0 && h1 != h2 && !(e1 == 0 && e2 == 0);
-    return sensible ? log(e1 / e2) / log(h1 / h2) : NAN;
+    bool sensible = !isnan(e1) && !isnan(e2) && e1 >= 0 && e2 >= 0 && h1 > 0 && h2 > 0 && h1 != h2;
+    if (!sensible || (e1 == 0 && e2 == 0)) {
+        return NAN;
+    }
+    return e2 == 0   ? copysign(INFINITY, log(h1 / h2))
+           : e1 == 0 ? -copysign(INFINITY, log(h1 / h2))
+                     : log(e1 / e2) / log(h1 / h2);
 }
 
 /* NaN if there is no level before. */

@@ -4,7 +4,8 @@
 set -euo pipefail
 source=$1 build=$2
 cd -- "$source"
-mapfile -d '' -t files < <(find solver oracles render golden verify tests examples -name '*.c' -print0)
+# tests/counted is for GCC alone: its vectors are of __float128.
+mapfile -d '' -t files < <(find solver oracles render golden verify tests examples -name '*.c' -not -path 'tests/counted/*' -print0)
 ((${#files[@]})) || { echo "no C files under $PWD"; exit 1; }
 for file in "${files[@]}"; do
   grep -qF "\"file\": \"$source/$file\"" "$build/compile_commands.json" || { echo "$file is not compiled"; exit 1; }

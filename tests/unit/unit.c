@@ -1,5 +1,7 @@
 #include "tests/unit/unit.h"
 
+#include "verify/trap.h"
+
 #include <CUnit/Basic.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -8,6 +10,7 @@
 
 int unit_main(const char *suite, const struct unit_test *tests, size_t count)
 {
+    verify_trap_from_environment();
     if (CU_initialize_registry() != CUE_SUCCESS) {
         return 2;
     }

@@ -1,0 +1,26 @@
+/* Operations of dim.h, dim_spectral.h and dim_sums.h, as cost.h counts them. */
+#ifndef SOLVER_DIM_FLOPS_H
+#define SOLVER_DIM_FLOPS_H
+
+#include "solver/cost.h"
+#include "solver/dim.h"
+
+enum {
+    FLOPS_TENSOR = DIM * LANES, /* one operation on each entry */
+    FLOPS_DOT = LANES + DIM - 1,
+    FLOPS_DOT_AND_SQUARE = DIM == 3 ? 3 * LANES + 2 : 2 * FLOPS_DOT,
+    FLOPS_TRACE = DIM - 1,
+    FLOPS_CONTRACT = (2 * DIM - 1) * LANES + DIM - 1,
+    FLOPS_COFACTOR = DIM == 3 ? 27 : 0, /* crosses are nine; in the plane signs and places change */
+    FLOPS_DETERMINANT = DIM == 3   ? 9 + FLOPS_DOT
+                        : DIM == 2 ? 3
+                                   : 0,
+    FLOPS_TENSOR_CROSS = DIM == 3 ? 54 + 3 * LANES : 0,
+    FLOPS_ADD_SCALED = 2 * FLOPS_TENSOR, /* one vector, times each component of another, added to a tensor */
+    /* dim_spectral.h: a rotation; as many sweeps as strains usually take */
+    FLOPS_ROTATE = 10 + SOLVER_COST_FUNCTION + 18 * DIM,
+    FLOPS_SWEEPS = DIM == 3 ? 4 : 2 * (DIM - 1),
+    FLOPS_SPECTRUM = FLOPS_SWEEPS * (DIM * (DIM - 1) / 2) * FLOPS_ROTATE + (FLOPS_SWEEPS + 1) * (DIM * DIM + 1)
+};
+
+#endif

@@ -1,0 +1,190 @@
+/* What the loops declare to compute (cost.h) against what a program computes in which every operation is counted. */
+#include "solver/integrator.h"
+#include "tests/unit/runs.h"
+
+/* What a step does once, whatever the number of particles, as times of stages: less than one operation of each particle
+ * would be. */
+enum { OF_A_STEP = 64, STEPS = 2 };
+
+static const int cells[] = {0, 64, 8, 4}; /* along an edge, by dimension: 65, 81 and 125 particles */
+
+/* What may differ: operations that are no particle's, in a step, and the part of what is declared that is not found. */
+struct slack {
+    double of_a_step, over;
+};
+static const struct slack exact = {OF_A_STEP, 0.0};
+
+static void expect_in(int dim, const char *more, const char *words, struct slack slack)
+{
+    static struct solver_cost_arrays arrays;
+    static struct solver_cost_terms terms;
+    struct sample sample = start(more, "dim=%d n=%d %s", dim, cells[dim], words);
+    int stages = solver_integrator_find(sample.scene->integrator)->stages;
+    advance(&sample, 1);
+    unsigned long before = counted;
+    advance(&sample, STEPS);
+    double found = (double)(counted - before) / STEPS;
+    solver_run_cost(sample.run, &arrays, &terms);
+    double declared = solver_cost_flops(&terms, stages);
+    double particles = (double)solver_run_facts(sample.run).particles;
+    bool holds = found - declared <= slack.of_a_step && declared - found <= slack.over * declared;
+    if (!holds || getenv("COUNTED_ALL") != NULL) {
+        printf("\n    %dD %-70s %9.1f declared, %9.1f found per particle", dim, words, (float)(declared / particles),
+               (float)(found / particles));
+    }
+    CU_ASSERT(holds);
+    finish(&sample);
+}
+
+static void expect(const char *more, const char *words, struct slack slack)
+{
+    for (int dim = 1; dim <= 3; dim++) {
+        expect_in(dim, more, words, slack);
+    }
+}
+
+static void test_upwind(void)
+{
+    static const char *const words[] = {
+        "evolved=pF material.model=linear-elastic",
+        "evolved=pFJ material.model=linear-elastic",
+        "evolved=pFHJ material.model=linear-elastic",
+        "evolved=pF",
+        "evolved=pFJ",
+        "evolved=pFHJ",
+        "evolved=pF material.model=neo-hookean-polyconvex",
+        "evolved=pFHJ material.model=neo-hookean-polyconvex",
+        "evolved=pFHJ reconstruction=none",
+        "evolved=pFHJ reconstruction=least-squares stencil=sph",
+        "evolved=pFJ volume_flux=stress",
+        "evolved=pFJ volume_flux=stress reconstruction=none",
+        "evolved=pFHJ stencil=sph",
+        "evolved=pFHJ stencil=sbp4 integrator=rk4 n=8",
+        "evolved=pFHJ integrator=ssp-rk3",
+        "evolved=pFHJ integrator=euler",
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        expect(smooth_motion, words[i], exact);
+    }
+}
+
+static void test_jst(void)
+{
+    expect(smooth_motion, "scheme=jst evolved=pF", exact);
+    expect(smooth_motion, "scheme=jst evolved=pFHJ", exact);
+    expect(smooth_motion, "scheme=jst evolved=pFHJ jst.kappa2=0.5", exact);
+}
+
+/* Where materials meet in density alone, so that J is evened out between all pairs. */
+static void test_composite(void)
+{
+    static const char composite[] =
+        "initial = { velocity = function(X, Y, Z) return first(0.05 * sin(2 * X), 0.04 * cos(3 * Y), 0) end }\n"
+        "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2,\n"
+        "             at = function(X) return 3, 0.3, X < 0.5 and 2 or 3 end }\n";
+    expect(composite, "evolved=pF", exact);
+    expect(composite, "evolved=pFHJ", exact);
+}
+
+static void test_boundary(void)
+{
+    static const char loaded[] =
+        "initial = { velocity = function(X, Y, Z) return first(0.05 * sin(2 * X), 0.04 * cos(3 * Y), 0) end }\n"
+        "body_force = function(X) return first(0.1, 0, 0) end\n"
+        "faces = { X0 = 'clamped', X1 = { kind = 'traction', value = function() return first(0.1, 0, 0) end } }\n";
+    expect(loaded, "evolved=pF", exact);
+    expect(loaded, "evolved=pFHJ integrator=rk4", exact);
+}
+
+static void test_angular_momentum(void)
+{
+    static const char loaded[] =
+        "initial = { velocity = function(X, Y, Z) return first(0.05 * sin(2 * X), 0.04 * cos(3 * Y), 0) end }\n"
+        "faces = { X1 = { kind = 'traction', value = function() return first(0.1, 0, 0) end } }\n";
+    /* six numbers are solved for in each stage: fewer operations than there are particles */
+    static const struct slack solving = {400.0, 0.0};
+    static const struct slack solving_often = {700.0, 0.0};
+    static const char *const in[] = {"n=16", "n=8"};
+    for (int dim = 2; dim <= 3; dim++) {
+        char words[3][80];
+        (void)snprintf(words[0], sizeof words[0], "angular_momentum=projected %s", in[dim - 2]);
+        (void)snprintf(words[1], sizeof words[1], "%s integrator=euler", words[0]);
+        (void)snprintf(words[2], sizeof words[2], "%s integrator=rk4", words[0]);
+        expect_in(dim, smooth_motion, words[0], solving);
+        expect_in(dim, smooth_motion, words[1], solving);
+        expect_in(dim, smooth_motion, words[2], solving_often);
+        expect_in(dim, loaded, words[0], solving);
+    }
+}
+
+static void test_wall(void)
+{
+    static const char flying[] = "initial = { velocity = function() return first(-1e-3, 0, 0) end }\n"
+                                 "rigid_wall = { point = each(-0.5), normal = { first(1, 0, 0) } }\n";
+    expect(flying, "evolved=pF", exact);
+    expect(flying, "evolved=pF integrator=rk4", exact);
+}
+
+/* Two bodies within reach of each other that part: forces between them would be counted where they act. */
+static void test_contact(void)
+{
+    static const char two[] = "-- domain = two bodies\n"
+                              "bodies = { { shape = 'box', lower = each(0), upper = each(1) },\n"
+                              "           { shape = 'box', lower = { first(1, 0, 0) }, upper = { first(2, 1, 1) } } }\n"
+                              "reference_length, lattice = 1, 'centres'\n"
+                              "initial = { velocity = function(X) return first(X > 1 and 1e-3 or 0, 0, 0) end }\n"
+                              "contact = { law = 'predicted' }\n";
+    expect(two, "evolved=pF stencil=sph", exact);
+}
+
+/* A spectrum takes as many rotations as it takes. */
+static void test_hencky(void)
+{
+    static const struct slack varied = {OF_A_STEP, 0.3};
+    static const char metal[] =
+        "initial = { velocity = function(X, Y, Z)\n"
+        "    return first(0.5 * sin(2 * X + Y), 0.4 * cos(3 * Y - X + Z), 0.3 * sin(2 * Z + X)) end }\n"
+        "material = { model = 'hencky', E = 3, nu = 0.3, rho = 2, yield_stress = 0.001, hardening = 0.1 }\n";
+    expect(metal, "evolved=pF material.yield_stress=0 material.hardening=0", varied);
+    expect(metal, "evolved=pFHJ material.yield_stress=0 material.hardening=0", varied);
+    expect(metal, "evolved=pF", varied);
+    expect(metal, "evolved=pFHJ", varied);
+}
+
+/* Pairs of the list that are beyond reach count for nothing. */
+static void test_ulsph(void)
+{
+    static const struct slack varied = {OF_A_STEP, 0.3};
+    static const char *const words[] = {
+        "",
+        "ulsph.tension=none",
+        "ulsph.tension=stress",
+        "ulsph.dissipation=none",
+        "ulsph.dissipation=viscosity",
+        "ulsph.xsph=0.5",
+        "ulsph.delta=0",
+        "ulsph.gradient=plain",
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        char text[160];
+        (void)snprintf(text, sizeof text, "scheme=ulsph material.model=linear-elastic %s", words[i]);
+        expect(smooth_motion, text, varied);
+    }
+}
+
+static const struct unit_test tests[] = {
+    {"upwind", test_upwind},
+    {"jst", test_jst},
+    {"where materials meet", test_composite},
+    {"faces and loads", test_boundary},
+    {"angular momentum", test_angular_momentum},
+    {"wall", test_wall},
+    {"contact", test_contact},
+    {"Hencky's material, elastic and plastic", test_hencky},
+    {"ulsph", test_ulsph},
+};
+
+int main(void)
+{
+    return unit_main("operations", tests, sizeof tests / sizeof *tests);
+}

@@ -1,0 +1,17 @@
+/* assay cost: what a scene switches on, and what each item costs. */
+#include "verify/commands.h"
+#include "verify/cost.h"
+#include "verify/report.h"
+
+int verify_command_cost(const struct verify_options *options)
+{
+    static struct verify_cost cost; /* large */
+    struct solver_error error = {.code = SOLVER_OK};
+    bool done = verify_cost_measure(options, &cost, &error);
+    if (done) {
+        verify_cost_print(&cost);
+        done = options->json == NULL || verify_report_write(options->json, verify_cost_json, &cost, &error);
+    }
+    verify_cost_free(&cost);
+    return done ? VERIFY_PASSED : verify_complain(&error);
+}

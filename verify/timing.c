@@ -1,0 +1,69 @@
+#include "verify/timing.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <time.h>
+
+static const double shortest_sample = 0.05; /* [s] */
+
+double verify_bandwidth(double bytes, int threads)
+{
+    size_t count = (size_t)(bytes / (3.0 * sizeof(double))) + 1;
+    double *y = malloc(count * sizeof *y);
+    double *a = malloc(count * sizeof *a);
+    double *b = malloc(count * sizeof *b);
+    double best = INFINITY;
+    if (y != NULL && a != NULL && b != NULL) {
+        double check = 0.0;
+#pragma omp parallel for schedule(static) num_threads(threads)
+        for (size_t i = 0; i < count; i++) {
+            y[i] = 0.0;
+            a[i] = (double)i;
+            b[i] = 1.0;
+        }
+        for (int repeat = 0; repeat < 3 * VERIFY_SAMPLES; repeat++) {
+            double begun = omp_get_wtime();
+#pragma omp parallel for schedule(static) num_threads(threads)
+            for (size_t i = 0; i < count; i++) {
+                y[i] = a[i] + 0.5 * b[i] * (double)repeat;
+            }
+            best = fmin(best, omp_get_wtime() - begun);
+            check += y[(size_t)repeat % count]; /* the sums are wanted: no pass may be left out */
+        }
+        best = check >= 0.0 ? best : INFINITY;
+    }
+    double entries = (double)count;
+    free(y);
+    free(a);
+    free(b);
+    return isfinite(best) ? 3.0 * sizeof(double) * entries / best : 0.0;
+}
+
+double verify_clock(int threads)
+{
+    struct timespec at;
+    (void)clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &at);
+    return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
+}
+
+bool verify_time_steps(struct solver_run *run, double *seconds, struct solver_error *error)
+{
+    int threads = solver_run_facts(run).threads;
+    size_t steps = 1;
+    *seconds = INFINITY;
+    for (int repeat = 0; repeat < VERIFY_SAMPLES;) {
+        double before = verify_clock(threads);
+        if (!solver_run_steps(run, steps, error)) {
+            return false;
+        }
+        double sample = verify_clock(threads) - before;
+        if (sample < shortest_sample && repeat == 0) {
+            steps *= 2;
+            continue;
+        }
+        *seconds = fmin(*seconds, sample / (double)steps);
+        repeat++;
+    }
+    return true;
+}
