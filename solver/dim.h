@@ -8,10 +8,10 @@
 
 #include <stddef.h>
 
-#define SOLVER_DIM_PASTE(name, dim)  name##_##dim##d
-#define SOLVER_DIM_EXPAND(name, dim) SOLVER_DIM_PASTE(name, dim)
-/* DIM_NAME(f) is f_1d, f_2d or f_3d */
-#define DIM_NAME(name) SOLVER_DIM_EXPAND(name, DIM)
+#define SOLVER_DIM_PASTE(name, dim, path)  name##_##dim##d_##path
+#define SOLVER_DIM_EXPAND(name, dim, path) SOLVER_DIM_PASTE(name, dim, path)
+/* DIM_NAME(f) is f_3d_avx2 for the dimension and path (path.h) that are compiled. */
+#define DIM_NAME(name) SOLVER_DIM_EXPAND(name, DIM, PATH)
 
 #if DIM == 3
 enum { LANES = 4 };

@@ -32,6 +32,8 @@ struct solver_geometry {
     size_t pairs;
     double bytes;    /* of all that is not a field of the state */
     int passes;      /* times that one evaluation reads it */
+    double flops;    /* floating-point operations of one evaluation, and of what follows from the state after it, of all
+                        particles; 0: not counted */
     double residual; /* of a stencil (run.h); NAN where there is none */
 };
 

@@ -10,6 +10,7 @@
 
 struct system {
     struct solver_upwind_system base; /* first */
+    const struct solver_jst_loops *loops;
     struct solver_jst jst;
     double *laplacian, *exchange;
 };
@@ -100,26 +101,21 @@ static bool make_weights(struct system *system, bool harmonic, bool corrected, s
     return done;
 }
 
-static const struct solver_jst_loops *loops_of(const struct system *system)
-{
-    static const struct solver_jst_loops *const loops[] = {&solver_jst_1d, &solver_jst_2d, &solver_jst_3d};
-    return loops[system->base.body->cloud->dim - 1];
-}
-
 static void gather(const void *of, size_t begin, size_t end)
 {
     const struct system *system = of;
-    loops_of(system)->gather(&system->base.work, &system->jst, begin, end);
+    system->loops->gather(&system->base.work, &system->jst, begin, end);
 }
 
 static void rates(const void *of, size_t begin, size_t end)
 {
     const struct system *system = of;
-    loops_of(system)->rates(&system->base.work, &system->jst, begin, end);
+    system->loops->rates(&system->base.work, &system->jst, begin, end);
 }
 
 static bool create(const struct solver_body *body, void **out, struct solver_error *error)
 {
+    static const struct solver_jst_loops *const loops[][3] = SOLVER_LOOPS(solver_jst);
     const struct solver_scene *scene = body->scene;
     double dx = body->cloud->spacing;
     void *made = NULL;
@@ -127,6 +123,7 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
         return false;
     }
     struct system *system = made;
+    system->loops = loops[solver_path()][body->cloud->dim - 1];
     system->base.gather = gather;
     system->base.rates = rates;
     if (!make_weights(system, scene->jst.kappa2 > 0.0, system->base.work.reconstruct, error)) {

@@ -4,6 +4,7 @@
 
 #include "solver/memory.h"
 #include "solver/pieces.h"
+#include "solver/upwind_flops.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,8 +14,8 @@ static void choose_terms(struct solver_upwind_system *system, const struct solve
 {
     const struct solver_scene *scene = system->body->scene;
     struct solver_upwind *work = &system->work;
-    const struct solver_upwind_loops *loops[] = {&solver_upwind_1d, &solver_upwind_2d, &solver_upwind_3d};
-    system->loops = loops[scene->dim - 1];
+    static const struct solver_upwind_loops *const loops[][3] = SOLVER_LOOPS(solver_upwind);
+    system->loops = loops[solver_path()][scene->dim - 1];
     work->material = material;
     work->evolves_J = scene->evolved != SOLVER_PF;
     work->evolves_H = scene->evolved == SOLVER_PFHJ;
@@ -88,6 +89,9 @@ struct solver_geometry solver_upwind_geometry(const void *of)
         .pairs = stencil->pairs,
         .bytes = (double)solver_stencil_bytes(stencil),
         .passes = 2, /* gradients, rates */
+        .flops = system->rates != NULL
+                     ? 0.0
+                     : solver_upwind_flops(&system->work, stencil->dim, stencil->count, stencil->pairs),
         .residual = fmax(system->residuals.closure, system->residuals.linear),
     };
 }

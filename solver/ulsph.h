@@ -7,6 +7,7 @@
 #define SOLVER_ULSPH_H
 
 #include "solver/material.h"
+#include "solver/path.h"
 #include "solver/scene.h"
 
 #include <stddef.h>
@@ -63,6 +64,6 @@ struct solver_ulsph_loops {
     size_t (*first_broken)(const struct solver_ulsph *work, size_t begin, size_t end);
 };
 
-extern const struct solver_ulsph_loops solver_ulsph_1d, solver_ulsph_2d, solver_ulsph_3d;
+SOLVER_DECLARE_LOOPS(struct solver_ulsph_loops, solver_ulsph);
 
 #endif

@@ -4,6 +4,7 @@
 #define SOLVER_UPWIND_H
 
 #include "solver/material.h"
+#include "solver/path.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -56,6 +57,6 @@ struct solver_upwind_loops {
     void (*measures)(bool linear, size_t begin, size_t end, const double *F, double *H, double *J);
 };
 
-extern const struct solver_upwind_loops solver_upwind_1d, solver_upwind_2d, solver_upwind_3d;
+SOLVER_DECLARE_LOOPS(struct solver_upwind_loops, solver_upwind);
 
 #endif

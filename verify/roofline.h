@@ -1,0 +1,15 @@
+/* What the machine can do at best, measured on itself: the two sides of the roofline. */
+#ifndef VERIFY_ROOFLINE_H
+#define VERIFY_ROOFLINE_H
+
+/* Bytes per second of y = a + s b over arrays of `bytes` altogether: the best of several passes, three numbers moved
+ * per entry, as STREAM counts. 0 if there is no memory for it. */
+double verify_roof_bandwidth(double bytes, int threads);
+/* Operations per second of multiply-adds in the widest vectors of the path in use (solver/path.h), two each; the best
+ * of several samples, all threads together. */
+double verify_roof_flops(int threads);
+/* The share of the roofline min(peak, flops / bytes * bandwidth) that so many operations on so many bytes reach in
+ * `seconds`. */
+double verify_roof_share(double flops, double bytes, double seconds, double peak, double bandwidth);
+
+#endif
