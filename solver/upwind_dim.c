@@ -4,20 +4,68 @@
 
 #include <math.h>
 
-/* sum_b (f_b - f_a) w_ab of a vector field, weights [pairs] with the given stride. */
-static inline struct tensor vector_gradient(const struct solver_upwind *work, size_t a, const double *field,
-                                            const double *weights, size_t stride)
+/* Weights of a pair, of which there are `stride`, as a vector; what is beyond DIM has no meaning. */
+static inline vec load_weights(const double *w, size_t stride)
 {
-    struct tensor G = {{{0}}};
-    vec f_a = load(field + a * LANES);
-    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
-        const double *w = weights + ab * stride;
-        vec difference = load(field + (size_t)work->neighbour[ab] * LANES) - f_a;
-        for (int I = 0; I < DIM; I++) {
-            G.column[I] += difference * w[I];
-        }
+    typedef vec loose __attribute__((aligned(sizeof(double))));
+    if (stride >= LANES) {
+        return *(const loose *)w;
     }
-    return G;
+    vec weights = {0};
+    for (int I = 0; I < DIM; I++) {
+        weights[I] = w[I];
+    }
+    return weights;
+}
+
+/* Gradients of a vector field and, if asked for, of a scalar one. */
+struct gradients {
+    struct tensor of_vector;
+    vec of_scalar;
+};
+
+static inline void add_difference(struct gradients *G, vec difference, const double *scalar, double scalar_a,
+                                  const double *w, size_t stride)
+{
+    for (int I = 0; I < DIM; I++) {
+        G->of_vector.column[I] += difference * w[I];
+    }
+    if (scalar != NULL) {
+        G->of_scalar += (*scalar - scalar_a) * load_weights(w, stride);
+    }
+}
+
+/* sum_b (f_b - f_a) w_ab, weights [pairs] with the given stride; `scalar` may be NULL. Sums over every other neighbour
+ * are kept apart, so that one does not wait for the last. */
+static inline __attribute__((always_inline)) struct gradients sum_gradients(const struct solver_upwind *work, size_t a,
+                                                                            const double *field, const double *scalar,
+                                                                            const double *weights, size_t stride)
+{
+    struct gradients even = {.of_scalar = {0}};
+    struct gradients odd = {.of_scalar = {0}};
+    const uint32_t *neighbour = work->neighbour;
+    vec f_a = load(field + a * LANES);
+    double s_a = scalar != NULL ? scalar[a] : 0.0;
+    size_t ab = work->row[a];
+    size_t end = work->row[a + 1];
+    for (; ab + 1 < end; ab += 2) {
+        size_t b = neighbour[ab];
+        size_t c = neighbour[ab + 1];
+        add_difference(&even, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
+                       weights + ab * stride, stride);
+        add_difference(&odd, load(field + c * LANES) - f_a, scalar != NULL ? scalar + c : NULL, s_a,
+                       weights + (ab + 1) * stride, stride);
+    }
+    if (ab < end) {
+        size_t b = neighbour[ab];
+        add_difference(&even, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
+                       weights + ab * stride, stride);
+    }
+    for (int I = 0; I < DIM; I++) {
+        even.of_vector.column[I] += odd.of_vector.column[I];
+    }
+    even.of_scalar += odd.of_scalar;
+    return even;
 }
 
 /* The same of the stress: DIM tensors, derivative along each reference axis, scaled. */
@@ -43,41 +91,50 @@ static inline void stress_gradient(const struct solver_upwind *work, size_t a, c
     }
 }
 
-static inline vec scalar_gradient(const struct solver_upwind *work, size_t a, const double *field,
-                                  const double *weights, size_t stride)
+static inline void store_slope(double *to, vec slope)
 {
-    vec G = {0};
-    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
-        double difference = field[work->neighbour[ab]] - field[a];
+    for (int I = DIM; I < LANES; I++) {
+        slope[I] = 0.0;
+    }
+    store(to, slope);
+}
+
+/* The stencil's own gradients, which are the rate of F; of U'(J) if `pressure`. */
+static inline __attribute__((always_inline)) void gradients_with(const struct solver_upwind *work, size_t begin,
+                                                                 size_t end, bool pressure)
+{
+    for (size_t a = begin; a < end; a++) {
+        double half_per_V = 0.5 / work->V[a];
+        struct gradients G = sum_gradients(work, a, work->v, pressure ? work->pressure : NULL, work->pair, PAIR);
         for (int I = 0; I < DIM; I++) {
-            G[I] += difference * weights[ab * stride + (size_t)I];
+            store(work->F_rate + a * TENSOR + I * LANES, G.of_vector.column[I] * half_per_V);
+        }
+        store(work->x_rate + a * LANES, load(work->v + a * LANES));
+        if (pressure) {
+            store_slope(work->pressure_gradient + a * LANES, half_per_V * G.of_scalar);
         }
     }
-    return G;
 }
 
 static void gradients(const struct solver_upwind *work, size_t begin, size_t end)
 {
-    for (size_t a = begin; a < end; a++) {
-        double half_per_V = 0.5 / work->V[a];
-        struct tensor G = vector_gradient(work, a, work->v, work->pair, PAIR);
-        for (int I = 0; I < DIM; I++) {
-            store(work->F_rate + a * TENSOR + I * LANES, G.column[I] * half_per_V);
+    bool own = work->least_squares == NULL; /* the reconstruction takes the stencil's gradients */
+    if (own && work->pressure_gradient != NULL) {
+        gradients_with(work, begin, end, true);
+    } else {
+        gradients_with(work, begin, end, false);
+    }
+    for (size_t a = begin; !own && work->v_gradient != NULL && a < end; a++) {
+        const double *pressure = work->pressure_gradient != NULL ? work->pressure : NULL;
+        struct gradients G = sum_gradients(work, a, work->v, pressure, work->least_squares, DIM);
+        store_tensor(work->v_gradient + a * TENSOR, G.of_vector);
+        if (pressure != NULL) {
+            store_slope(work->pressure_gradient + a * LANES, G.of_scalar);
         }
-        store(work->x_rate + a * LANES, load(work->v + a * LANES));
-        if (work->v_gradient != NULL) {
-            store_tensor(work->v_gradient + a * TENSOR, vector_gradient(work, a, work->v, work->least_squares, DIM));
-        }
-        const double *weights = work->least_squares != NULL ? work->least_squares : work->pair;
-        size_t stride = work->least_squares != NULL ? DIM : PAIR;
-        double scale = work->least_squares != NULL ? 1.0 : half_per_V;
-        if (work->pressure_gradient != NULL) {
-            store(work->pressure_gradient + a * LANES,
-                  scale * scalar_gradient(work, a, work->pressure, weights, stride));
-        }
-        if (work->P_gradient != NULL) {
-            stress_gradient(work, a, weights, stride, scale);
-        }
+    }
+    for (size_t a = begin; work->P_gradient != NULL && a < end; a++) {
+        stress_gradient(work, a, own ? work->pair : work->least_squares, own ? PAIR : DIM,
+                        own ? 0.5 / work->V[a] : 1.0);
     }
 }
 
@@ -92,17 +149,6 @@ static inline struct impedances pair_impedances(const struct solver_material_con
 {
     return (struct impedances){.p = 2.0 * of_a->zp * of_b->zp / (of_a->zp + of_b->zp),
                                .s = 2.0 * of_a->zs * of_b->zs / (of_a->zs + of_b->zs)};
-}
-
-/* Upwind flux of momentum across the pair: A S (p+ - p-), twice (eq. 27, 28), from the jump of velocity, with the
- * states reconstructed at mid-distance. n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) =
- * along (along . jump) / |along|^2. */
-static inline vec momentum_flux(struct impedances z, vec jump, vec along, double face)
-{
-    double normal;
-    double square;
-    dot_and_square(along, jump, &normal, &square);
-    return face * (z.s * jump + ((z.p - z.s) * normal / square) * along);
 }
 
 /* Reconstructed jump of the stress times the pair's distance, (P+ - P-) d (eq. 27, 34). */
@@ -123,52 +169,99 @@ static inline vec traction_jump(const struct solver_upwind *work, size_t a, size
     return traction;
 }
 
-/* Reconstructed jump of the volumetric stress U'(J). */
-static inline double pressure_jump(const struct solver_upwind *work, size_t a, size_t b, vec distance, bool reconstruct)
-{
-    double jump = work->pressure[b] - work->pressure[a];
-    if (reconstruct) {
-        vec slope = load(work->pressure_gradient + a * LANES) + load(work->pressure_gradient + b * LANES);
-        jump -= 0.5 * dot(slope, distance);
-    }
-    return jump;
-}
-
-/* Upwind flux of J (eq. 27, 28, 30, 33), times 2 z_p: A (n . (P+ - P-) N) (n . H^Ave N). Eq. 33 as printed has the
- * sign that would feed energy in; this is that of eq. 30. A N stands for C_ab, as in the flux of p. By default only the
- * volumetric part U'(J) H of the stress jumps: J is conjugate to it alone, so that without reconstruction the flux
- * cannot feed energy in, and its gradient is a vector instead of a third-order tensor. */
-static inline double volume_flux(const struct solver_upwind *work, size_t a, size_t b, vec distance, vec along,
-                                 double face, bool reconstruct)
-{
-    vec area = distance;
-    if (!work->frozen) {
-        area = (vec){0};
-        for (int I = 0; I < DIM; I++) {
-            area += (load(work->cofactor + a * TENSOR + I * LANES) + load(work->cofactor + b * TENSOR + I * LANES)) *
-                    (0.5 * distance[I]);
-        }
-    }
-    double normal = dot(along, area);
-    double traction = work->whole_jump ? dot(along, traction_jump(work, a, b, distance, reconstruct))
-                                       : normal * pressure_jump(work, a, b, distance, reconstruct);
-    return face * traction * normal / (dot(along, along) * dot(distance, distance));
-}
-
 /* What the scene asks for, as constants where the sums are called, so that each combination is a loop of its own. */
 struct terms {
-    bool frozen, reconstruct, transposed, volume, composite;
+    bool frozen, reconstruct, transposed, volume, whole, composite;
 };
+
+/* n (n . H^Ave N): what becomes of the unit vector N, not normalised, as the pair's area. */
+static inline vec pair_area(const struct solver_upwind *work, size_t a, size_t b, vec distance)
+{
+    vec area = {0};
+    for (int I = 0; I < DIM; I++) {
+        area += (load(work->cofactor + a * TENSOR + I * LANES) + load(work->cofactor + b * TENSOR + I * LANES)) *
+                spread(0.5 * distance, I);
+    }
+    return area;
+}
+
+/* Sums over the neighbours of one particle, before what is the same for all of them is multiplied in. Components are
+ * summed apart as long as they may be: that is fewer shuffles, and no sum waits long for its last term. */
+struct pair_sums {
+    vec force[DIM]; /* sum_b P_b e_I D_I */
+    vec jumps;      /* sum_b A [v] */
+    vec normals;    /* sum_b A n (n . [v]) */
+    vec slopes;     /* sum_b A n^2 (slope of U' times N d), by components; n = n . H^Ave N here and below */
+    double volume;  /* sum_b A n^2 [U'], not reconstructed, or A n (n . [P N]) */
+};
+
+/* Upwind fluxes across a pair, twice: of momentum, A S (p+ - p-) (eq. 27, 28), from the jump of velocity with the
+ * states reconstructed at mid-distance; n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) =
+ * along (along . jump) / |along|^2. And of J (eq. 27, 28, 30, 33), times 2 z_p: A (n . (P+ - P-) N) (n . H^Ave N).
+ * Eq. 33 as printed has the sign that would feed energy in; this is that of eq. 30. A N stands for C_ab, as in the flux
+ * of p. By default only the volumetric part U'(J) H of the stress jumps: J is conjugate to it alone, so that without
+ * reconstruction the flux cannot feed energy in, and its gradient is a vector instead of a third-order tensor. */
+static inline void add_fluxes(const struct solver_upwind *work, size_t a, size_t b, struct terms terms, vec jump,
+                              vec distance, vec along, double face, struct impedances z, struct pair_sums *sums)
+{
+    bool alike = !terms.composite || /* where materials meet the volumetric stress has a jump of its own */
+                 work->constants[a].kappa == work->constants[b].kappa;
+    vec normal;
+    vec square;
+    vec by_normal; /* A / |along|^2 */
+    vec by_volume; /* A n^2; frozen: n = N, H = 1 */
+    spread_dots(along, jump, along, along, &normal, &square);
+    if (terms.volume && (!terms.frozen || terms.whole)) {
+        vec area = terms.frozen ? distance : pair_area(work, a, b, distance);
+        vec turned;
+        vec reference;
+        spread_dots(along, area, distance, distance, &turned, &reference);
+        vec share = face / (square * reference);
+        by_normal = share * reference;
+        by_volume = share * turned;
+        if (terms.whole) {
+            double flux = by_volume[0] * dot(along, traction_jump(work, a, b, distance, terms.reconstruct));
+            sums->volume += alike ? flux : 0.0;
+        }
+        by_volume *= turned;
+    } else {
+        by_normal = face / square;
+        by_volume = spread((vec){face}, 0);
+    }
+    sums->jumps += (terms.composite ? z.s * face : face) * jump;
+    sums->normals += (terms.composite ? (z.p - z.s) * normal * by_normal : normal * by_normal) * along;
+    if (terms.volume && !terms.whole && alike) {
+        sums->volume += by_volume[0] * (work->pressure[b] - work->pressure[a]);
+        if (terms.reconstruct) {
+            vec slope = load(work->pressure_gradient + a * LANES) + load(work->pressure_gradient + b * LANES);
+            sums->slopes += by_volume * (slope * distance);
+        }
+    }
+}
+
+static inline struct sums combine(const struct pair_sums *sums, struct terms terms, struct impedances z)
+{
+    struct sums all = {.force = sums->force[0], .volume = sums->volume};
+    for (int I = 1; I < DIM; I++) {
+        all.force += sums->force[I];
+    }
+    all.dissipation = terms.composite ? sums->jumps + sums->normals : z.s * sums->jumps + (z.p - z.s) * sums->normals;
+    for (int I = 0; I < DIM; I++) {
+        all.volume -= 0.5 * sums->slopes[I];
+    }
+    return all;
+}
 
 static inline __attribute__((always_inline)) struct sums sum_pairs(const struct solver_upwind *work, size_t a,
                                                                    struct terms terms)
 {
-    struct sums sums = {.volume = 0.0};
+    struct pair_sums sums = {.volume = 0.0};
     const double *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
+    const double *x = terms.frozen ? work->X : work->x;
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
     struct impedances z = {of_a->zp, of_a->zs};
     vec X_a = load(work->X + a * LANES);
-    vec x_a = load((terms.frozen ? work->X : work->x) + a * LANES);
+    vec x_a = load(x + a * LANES);
     vec v_a = load(work->v + a * LANES);
     struct tensor slope_a = load_tensor(slope + a * TENSOR);
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
@@ -177,26 +270,21 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
         const double *D = terms.transposed ? work->transposed + ab * DIM : C;
         const double *P_b = work->P + b * TENSOR;
         vec distance = load(work->X + b * LANES) - X_a;
-        vec along = terms.frozen ? distance : load(work->x + b * LANES) - x_a;
+        vec along = terms.frozen ? distance : load(x + b * LANES) - x_a;
         vec jump = load(work->v + b * LANES) - v_a;
-        bool alike = true;
         if (terms.composite) {
-            const struct solver_material_constants *of_b = work->constants + b;
-            z = pair_impedances(of_a, of_b);
-            alike = of_a->kappa == of_b->kappa; /* where materials meet the volumetric stress has a jump of its own */
+            z = pair_impedances(of_a, work->constants + b);
         }
+        vec back = -0.5 * distance;
         for (int I = 0; I < DIM; I++) {
-            sums.force += load(P_b + I * LANES) * D[I];
+            sums.force[I] += load(P_b + I * LANES) * D[I];
             if (terms.reconstruct) {
-                jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * (-0.5 * distance[I]);
+                jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * spread(back, I);
             }
         }
-        sums.dissipation += momentum_flux(z, jump, along, C[DIM]);
-        if (terms.volume && alike) {
-            sums.volume += volume_flux(work, a, b, distance, along, C[DIM], terms.reconstruct);
-        }
+        add_fluxes(work, a, b, terms, jump, distance, along, C[DIM], z, &sums);
     }
-    return sums;
+    return combine(&sums, terms, z);
 }
 
 static inline __attribute__((always_inline)) void rates_with(const struct solver_upwind *work, size_t begin, size_t end,
@@ -209,8 +297,8 @@ static inline __attribute__((always_inline)) void rates_with(const struct solver
 
 static void rates(const struct solver_upwind *work, size_t begin, size_t end)
 {
-    bool plain = work->reconstruct && work->transposed == NULL && work->stride == 0;
     bool volume = work->evolves_J;
+    bool plain = work->reconstruct && work->transposed == NULL && work->stride == 0 && !(volume && work->whole_jump);
     if (plain && work->frozen && !volume) {
         rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true});
     } else if (plain && work->frozen) {
@@ -225,6 +313,7 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end)
                                   .reconstruct = work->reconstruct,
                                   .transposed = work->transposed != NULL,
                                   .volume = volume,
+                                  .whole = work->whole_jump,
                                   .composite = work->stride != 0});
     }
 }

@@ -14,7 +14,8 @@ assay_test(mustfail-first-order-reconstruction LABELS gate mustfail COMMAND ${mu
 
 # Mutants: the program with one of its sources broken as tests/mutants/NAME.mutant says; the solver holds no code for
 # tests. The broken object stands on the command line, so the linker has no use for that of the library; had it, both
-# would define the same names, which is an error. Debug builds, which run the unit programs only, go without.
+# would define the same names, which is an error. Hot loops are broken on the baseline path, which is all that the tests
+# of mutants run. Debug builds, which run the unit programs only, go without.
 if(NOT CMAKE_BUILD_TYPE STREQUAL "Release")
   message(STATUS "no mutants: they are for the build type Release")
   return()
@@ -76,7 +77,8 @@ function(assay_mutant name gates)
   assay_mutate(${name} ${library})
   add_executable(mutant_${name} ${objects} $<TARGET_OBJECTS:assay_main>)
   target_link_libraries(mutant_${name} PRIVATE assay_verify)
-  assay_test(mustfail-${name} LABELS gate mustfail COMMAND ${mustfail} mustfail/${name} ${gates}
+  assay_test(mustfail-${name} LABELS gate mustfail ENVIRONMENT ASSAY_ISA=baseline
+    COMMAND ${mustfail} mustfail/${name} ${gates}
     $<TARGET_FILE:assay> ${ARGN} -- $<TARGET_FILE:mutant_${name}> ${ARGN})
 endfunction()
 
@@ -90,7 +92,8 @@ function(assay_unit_mutant name unit test)
   assay_mutate(${name} ${libraries})
   add_executable(mutant_${name} ${objects} unit/${unit}.c unit/unit.c)
   target_link_libraries(mutant_${name} PRIVATE assay_solver PkgConfig::CUNIT)
-  assay_test(mustfail-${name} LABELS unit mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/mustfail_unit.sh ${test}
+  assay_test(mustfail-${name} LABELS unit mustfail ENVIRONMENT ASSAY_ISA=baseline
+    COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/mustfail_unit.sh ${test}
     $<TARGET_FILE:test_${unit}> $<TARGET_FILE:mutant_${name}>)
 endfunction()
 
