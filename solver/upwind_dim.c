@@ -36,7 +36,7 @@ static inline void add_difference(struct gradients *G, vec difference, const dou
 }
 
 /* sum_b (f_b - f_a) w_ab, weights [pairs] with the given stride; `scalar` may be NULL. Sums over every other neighbour
- * are kept apart, so that one does not wait for the last. */
+ * are kept apart, so that one does not wait for the last; on a line there are too few for that. */
 static inline __attribute__((always_inline)) struct gradients sum_gradients(const struct solver_upwind *work, size_t a,
                                                                             const double *field, const double *scalar,
                                                                             const double *weights, size_t stride)
@@ -48,7 +48,7 @@ static inline __attribute__((always_inline)) struct gradients sum_gradients(cons
     double s_a = scalar != NULL ? scalar[a] : 0.0;
     size_t ab = work->row[a];
     size_t end = work->row[a + 1];
-    for (; ab + 1 < end; ab += 2) {
+    for (; DIM > 1 && ab + 1 < end; ab += 2) {
         size_t b = neighbour[ab];
         size_t c = neighbour[ab + 1];
         add_difference(&even, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
@@ -56,7 +56,7 @@ static inline __attribute__((always_inline)) struct gradients sum_gradients(cons
         add_difference(&odd, load(field + c * LANES) - f_a, scalar != NULL ? scalar + c : NULL, s_a,
                        weights + (ab + 1) * stride, stride);
     }
-    if (ab < end) {
+    for (; ab < end; ab++) {
         size_t b = neighbour[ab];
         add_difference(&even, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
                        weights + ab * stride, stride);
