@@ -46,13 +46,25 @@ static inline double dot(vec a, vec b)
     return sum;
 }
 
+static inline vec splat(double a)
+{
+#if DIM == 3
+    return (vec){a, a, a, a};
+#elif DIM == 2
+    return (vec){a, a};
+#else
+    return (vec){a};
+#endif
+}
+
 /* Component I, a constant, in every lane. */
 static inline vec spread(vec a, int I)
 {
 #if DIM == 3
     return I == 0   ? __builtin_shufflevector(a, a, 0, 0, 0, 0)
            : I == 1 ? __builtin_shufflevector(a, a, 1, 1, 1, 1)
-                    : __builtin_shufflevector(a, a, 2, 2, 2, 2);
+           : I == 2 ? __builtin_shufflevector(a, a, 2, 2, 2, 2)
+                    : __builtin_shufflevector(a, a, 3, 3, 3, 3);
 #elif DIM == 2
     return I == 0 ? __builtin_shufflevector(a, a, 0, 0) : __builtin_shufflevector(a, a, 1, 1);
 #else

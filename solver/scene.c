@@ -1,6 +1,7 @@
 /* Loading a scene: file, run in the sandbox, plain keys, structured parts, and what must hold between keys. */
 #include "solver/material.h"
 #include "solver/scene_internal.h"
+#include "solver/stencil.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -129,6 +130,22 @@ static void check_flow(lua_State *L, const struct solver_scene *scene)
         scene_refuse(L, "material.hardening_strain, hardening_exponent: belong to material.law = \"power\"");
 }
 
+/* Pair vectors in single precision are for what the loops of upwind take from them. */
+static void check_precision(lua_State *L, const struct solver_scene *scene)
+{
+    const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
+    if (strcmp(scene->precision, "mixed") != 0)
+        return;
+    if (strcmp(scene->scheme, "upwind") != 0)
+        scene_refuse(L, "precision: mixed is for scheme = \"upwind\", not %s; expected double", scene->scheme);
+    if (builder == NULL || !builder->antisymmetric)
+        scene_refuse(L,
+                     "precision: mixed is for antisymmetric stencils, closed, sbp2 and sbp4, not %s; expected double",
+                     scene->stencil);
+    if (scene->evolved != SOLVER_PF && strcmp(scene->volume_flux, "stress") == 0)
+        scene_refuse(L, "precision: mixed knows volume_flux = \"pressure\" alone; expected double");
+}
+
 /* A plane wall has a point and a normal that is one. */
 static void check_rigid_wall(lua_State *L, const struct solver_scene *scene)
 {
@@ -159,6 +176,7 @@ static int read_scene(lua_State *L)
                      "material.nu: 0.5 is incompressible, which needs a solver that is not there yet; take nu < 0.5, "
                      "say 0.4999");
     check_flow(L, scene);
+    check_precision(L, scene);
     check_rigid_wall(L, scene);
     scene_read_bodies(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)

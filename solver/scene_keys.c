@@ -127,7 +127,8 @@ X("snapshots", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasin
   "times at which a study compares the state with the oracle, besides t_end")                                          \
 X("history", INTEGER, AT(history), 1, 100000, 0, "", "200", "whole number in [1, 100000]",                             \
   "rows of the time history over t_end, if there are as many steps")                                                   \
-X("precision", WORD, AT(precision), 0, 0, 0, "double | mixed", "double", "one of double", "floating-point precision")  \
+X("precision", WORD, AT(precision), 0, 0, 0, "double mixed | single", "double", "one of double, mixed",                          \
+  "of pair vectors: mixed stores them in single precision, and sums in double (upwind)")  \
 X("threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
   "threads; 0: as many as there are cores and the work is worth")                                                     \
 X("initial.from", WORD, AT(initial_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",             \

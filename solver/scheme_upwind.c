@@ -33,6 +33,8 @@ static void bind_stencil(struct solver_upwind_system *system)
     system->work.row = stencil->graph.row;
     system->work.neighbour = stencil->graph.neighbour;
     system->work.pair = stencil->pair;
+    system->work.narrow = stencil->narrow;
+    system->work.unit = stencil->unit;
     system->work.transposed = stencil->transposed;
     system->work.row_sum = stencil->row_sum;
     system->work.least_squares = stencil->least_squares;
@@ -61,9 +63,11 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
         return false;
     }
     system->body = body;
+    bool mixed = strcmp(scene->precision, "mixed") == 0;
     choose_terms(system, model->in[scene->dim - 1]);
     if (!solver_stencil_create(builder, body->cloud, scene->support, &system->stencil, error) ||
-        (least_squares && !solver_stencil_add_least_squares(system->stencil, body->cloud, error))) {
+        (least_squares && !solver_stencil_add_least_squares(system->stencil, body->cloud, error)) ||
+        (mixed && !solver_stencil_narrow(system->stencil, error))) {
         solver_upwind_destroy(system);
         return false;
     }
@@ -174,6 +178,7 @@ bool solver_upwind_start(void *of, struct solver_error *error)
         }
     }
     system->loops->measures(work->frozen, 0, cloud->count, work->F, work->H, work->J);
+    solver_stencil_narrow_only(system->stencil); /* the loops take the narrow ones */
     return true;
 }
 

@@ -63,6 +63,7 @@ bool solver_stencil_reserve(struct solver_stencil *stencil, const struct solver_
     stencil->dim = cloud->dim;
     stencil->count = cloud->count;
     stencil->spacing = cloud->spacing;
+    stencil->unit = 1.0;
     stencil->pairs = stencil->graph.row[cloud->count];
     stencil->face_point_count = cloud->face_point_count;
     if (!solver_alloc((void **)&stencil->pair, stencil->pairs * (dim + 1), sizeof(double), "pair vectors", error) ||
@@ -150,6 +151,7 @@ void solver_stencil_free(struct solver_stencil *stencil)
     }
     solver_graph_free(&stencil->graph);
     free(stencil->pair);
+    free(stencil->narrow);
     free(stencil->transposed);
     free(stencil->row_sum);
     free(stencil->least_squares);
@@ -200,7 +202,8 @@ bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const stru
 size_t solver_stencil_bytes(const struct solver_stencil *stencil)
 {
     size_t dim = (size_t)stencil->dim;
-    size_t per_pair = sizeof *stencil->graph.neighbour + (dim + 1) * sizeof(double) +
+    size_t per_pair = sizeof *stencil->graph.neighbour + (stencil->pair != NULL ? (dim + 1) * sizeof(double) : 0) +
+                      (stencil->narrow != NULL ? (dim + 1) * sizeof(float) : 0) +
                       (stencil->transposed != NULL ? dim * sizeof(double) : 0) +
                       (stencil->least_squares != NULL ? dim * sizeof(double) : 0);
     size_t per_particle = sizeof *stencil->graph.row + (dim + 1) * sizeof(double);

@@ -14,6 +14,8 @@ struct solver_upwind {
     const size_t *row;
     const uint32_t *neighbour;
     const double *pair, *transposed, *row_sum, *V;
+    const float *narrow;         /* in place of pair where the precision is mixed; NULL: it is double */
+    double unit;                 /* of narrow, and then of row_sum; else 1 */
     const double *least_squares; /* NULL: reconstruct with the stencil's own gradient */
 
     /* What the scene asks for. */

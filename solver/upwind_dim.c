@@ -4,18 +4,57 @@
 
 #include <math.h>
 
-/* Weights of a pair, of which there are `stride`, as a vector; what is beyond DIM has no meaning. */
-static inline vec load_weights(const double *w, size_t stride)
+/* Weights of a pair: each in every lane, and together, where what is beyond DIM has no meaning. */
+struct weights {
+    vec each[DIM], together;
+};
+
+/* C_ab and A_ab. */
+struct pair {
+    struct weights C;
+    vec A;
+};
+
+/* Weights that are `stride` numbers apart. */
+static inline __attribute__((always_inline)) struct weights load_weights(const double *from, size_t stride)
 {
     typedef vec loose __attribute__((aligned(sizeof(double))));
-    if (stride >= LANES) {
-        return *(const loose *)w;
-    }
-    vec weights = {0};
+    struct weights w = {.together = {0}};
     for (int I = 0; I < DIM; I++) {
-        weights[I] = w[I];
+        w.each[I] = splat(from[I]);
+        w.together[I] = from[I];
     }
-    return weights;
+    if (stride >= LANES) {
+        w.together = *(const loose *)from;
+    }
+    return w;
+}
+
+static inline __attribute__((always_inline)) struct pair load_pair(const struct solver_upwind *work, size_t ab,
+                                                                   bool narrow)
+{
+    struct pair pair;
+    if (!narrow) {
+        pair.C = load_weights(work->pair + ab * PAIR, PAIR);
+        pair.A = splat(work->pair[ab * PAIR + DIM]);
+        return pair;
+    }
+    const float *from = work->narrow + ab * PAIR;
+#if DIM == 3
+    typedef float four __attribute__((vector_size(4 * sizeof(float)), aligned(sizeof(float))));
+    vec together = __builtin_convertvector(*(const four *)from, vec);
+#else
+    vec together = {0};
+    for (int I = 0; I < DIM; I++) {
+        together[I] = (double)from[I];
+    }
+#endif
+    pair.C.together = together;
+    for (int I = 0; I < DIM; I++) {
+        pair.C.each[I] = spread(together, I);
+    }
+    pair.A = LANES > DIM ? spread(together, DIM) : splat((double)from[DIM]);
+    return pair;
 }
 
 /* Gradients of a vector field and, if asked for, of a scalar one. */
@@ -24,22 +63,29 @@ struct gradients {
     vec of_scalar;
 };
 
-static inline void add_difference(struct gradients *G, vec difference, const double *scalar, double scalar_a,
-                                  const double *w, size_t stride)
+/* Which weights gradients are summed with. */
+enum weighting { WIDE, NARROW, LEAST_SQUARES };
+
+static inline __attribute__((always_inline)) void add_difference(const struct solver_upwind *work,
+                                                                 enum weighting weighting, size_t ab, vec difference,
+                                                                 const double *scalar, double scalar_a,
+                                                                 struct gradients *G)
 {
+    struct weights w = weighting == LEAST_SQUARES ? load_weights(work->least_squares + ab * DIM, DIM)
+                                                  : load_pair(work, ab, weighting == NARROW).C;
     for (int I = 0; I < DIM; I++) {
-        G->of_vector.column[I] += difference * w[I];
+        G->of_vector.column[I] += difference * w.each[I];
     }
     if (scalar != NULL) {
-        G->of_scalar += (*scalar - scalar_a) * load_weights(w, stride);
+        G->of_scalar += (*scalar - scalar_a) * w.together;
     }
 }
 
-/* sum_b (f_b - f_a) w_ab, weights [pairs] with the given stride; `scalar` may be NULL. Sums over every other neighbour
- * are kept apart, so that one does not wait for the last; on a line there are too few for that. */
+/* sum_b (f_b - f_a) w_ab; `scalar` may be NULL. Sums over every other neighbour are kept apart, so that one does not
+ * wait for the last; on a line there are too few for that. */
 static inline __attribute__((always_inline)) struct gradients sum_gradients(const struct solver_upwind *work, size_t a,
                                                                             const double *field, const double *scalar,
-                                                                            const double *weights, size_t stride)
+                                                                            enum weighting weighting)
 {
     struct gradients even = {.of_scalar = {0}};
     struct gradients odd = {.of_scalar = {0}};
@@ -51,15 +97,15 @@ static inline __attribute__((always_inline)) struct gradients sum_gradients(cons
     for (; DIM > 1 && ab + 1 < end; ab += 2) {
         size_t b = neighbour[ab];
         size_t c = neighbour[ab + 1];
-        add_difference(&even, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
-                       weights + ab * stride, stride);
-        add_difference(&odd, load(field + c * LANES) - f_a, scalar != NULL ? scalar + c : NULL, s_a,
-                       weights + (ab + 1) * stride, stride);
+        add_difference(work, weighting, ab, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
+                       &even);
+        add_difference(work, weighting, ab + 1, load(field + c * LANES) - f_a, scalar != NULL ? scalar + c : NULL, s_a,
+                       &odd);
     }
     for (; ab < end; ab++) {
         size_t b = neighbour[ab];
-        add_difference(&even, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
-                       weights + ab * stride, stride);
+        add_difference(work, weighting, ab, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
+                       &even);
     }
     for (int I = 0; I < DIM; I++) {
         even.of_vector.column[I] += odd.of_vector.column[I];
@@ -101,11 +147,11 @@ static inline void store_slope(double *to, vec slope)
 
 /* The stencil's own gradients, which are the rate of F; of U'(J) if `pressure`. */
 static inline __attribute__((always_inline)) void gradients_with(const struct solver_upwind *work, size_t begin,
-                                                                 size_t end, bool pressure)
+                                                                 size_t end, bool pressure, bool narrow)
 {
     for (size_t a = begin; a < end; a++) {
-        double half_per_V = 0.5 / work->V[a];
-        struct gradients G = sum_gradients(work, a, work->v, pressure ? work->pressure : NULL, work->pair, PAIR);
+        double half_per_V = 0.5 * work->unit / work->V[a];
+        struct gradients G = sum_gradients(work, a, work->v, pressure ? work->pressure : NULL, narrow ? NARROW : WIDE);
         for (int I = 0; I < DIM; I++) {
             store(work->F_rate + a * TENSOR + I * LANES, G.of_vector.column[I] * half_per_V);
         }
@@ -119,16 +165,21 @@ static inline __attribute__((always_inline)) void gradients_with(const struct so
 static void gradients(const struct solver_upwind *work, size_t begin, size_t end)
 {
     bool own = work->least_squares == NULL; /* the reconstruction takes the stencil's gradients */
-    if (own && work->pressure_gradient != NULL) {
-        gradients_with(work, begin, end, true);
+    bool pressure = own && work->pressure_gradient != NULL;
+    if (work->narrow != NULL && pressure) {
+        gradients_with(work, begin, end, true, true);
+    } else if (work->narrow != NULL) {
+        gradients_with(work, begin, end, false, true);
+    } else if (pressure) {
+        gradients_with(work, begin, end, true, false);
     } else {
-        gradients_with(work, begin, end, false);
+        gradients_with(work, begin, end, false, false);
     }
     for (size_t a = begin; !own && work->v_gradient != NULL && a < end; a++) {
-        const double *pressure = work->pressure_gradient != NULL ? work->pressure : NULL;
-        struct gradients G = sum_gradients(work, a, work->v, pressure, work->least_squares, DIM);
+        const double *field = work->pressure_gradient != NULL ? work->pressure : NULL;
+        struct gradients G = sum_gradients(work, a, work->v, field, LEAST_SQUARES);
         store_tensor(work->v_gradient + a * TENSOR, G.of_vector);
-        if (pressure != NULL) {
+        if (field != NULL) {
             store_slope(work->pressure_gradient + a * LANES, G.of_scalar);
         }
     }
@@ -171,11 +222,12 @@ static inline vec traction_jump(const struct solver_upwind *work, size_t a, size
 
 /* What the scene asks for, as constants where the sums are called, so that each combination is a loop of its own. */
 struct terms {
-    bool frozen, reconstruct, transposed, volume, whole, composite;
+    bool frozen, reconstruct, transposed, volume, whole, composite, narrow;
 };
 
 /* n (n . H^Ave N): what becomes of the unit vector N, not normalised, as the pair's area. */
-static inline vec pair_area(const struct solver_upwind *work, size_t a, size_t b, vec distance)
+static inline __attribute__((always_inline)) vec pair_area(const struct solver_upwind *work, size_t a, size_t b,
+                                                           vec distance)
 {
     vec area = {0};
     for (int I = 0; I < DIM; I++) {
@@ -201,8 +253,9 @@ struct pair_sums {
  * Eq. 33 as printed has the sign that would feed energy in; this is that of eq. 30. A N stands for C_ab, as in the flux
  * of p. By default only the volumetric part U'(J) H of the stress jumps: J is conjugate to it alone, so that without
  * reconstruction the flux cannot feed energy in, and its gradient is a vector instead of a third-order tensor. */
-static inline void add_fluxes(const struct solver_upwind *work, size_t a, size_t b, struct terms terms, vec jump,
-                              vec distance, vec along, double face, struct impedances z, struct pair_sums *sums)
+static inline __attribute__((always_inline)) void add_fluxes(const struct solver_upwind *work, size_t a, size_t b,
+                                                             struct terms terms, vec jump, vec distance, vec along,
+                                                             vec face, struct impedances z, struct pair_sums *sums)
 {
     bool alike = !terms.composite || /* where materials meet the volumetric stress has a jump of its own */
                  work->constants[a].kappa == work->constants[b].kappa;
@@ -226,7 +279,7 @@ static inline void add_fluxes(const struct solver_upwind *work, size_t a, size_t
         by_volume *= turned;
     } else {
         by_normal = face / square;
-        by_volume = spread((vec){face}, 0);
+        by_volume = face;
     }
     sums->jumps += (terms.composite ? z.s * face : face) * jump;
     sums->normals += (terms.composite ? (z.p - z.s) * normal * by_normal : normal * by_normal) * along;
@@ -239,7 +292,8 @@ static inline void add_fluxes(const struct solver_upwind *work, size_t a, size_t
     }
 }
 
-static inline struct sums combine(const struct pair_sums *sums, struct terms terms, struct impedances z)
+static inline __attribute__((always_inline)) struct sums combine(const struct pair_sums *sums, struct terms terms,
+                                                                 struct impedances z)
 {
     struct sums all = {.force = sums->force[0], .volume = sums->volume};
     for (int I = 1; I < DIM; I++) {
@@ -266,8 +320,7 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
     struct tensor slope_a = load_tensor(slope + a * TENSOR);
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
         size_t b = work->neighbour[ab];
-        const double *C = work->pair + ab * PAIR;
-        const double *D = terms.transposed ? work->transposed + ab * DIM : C;
+        struct pair pair = load_pair(work, ab, terms.narrow);
         const double *P_b = work->P + b * TENSOR;
         vec distance = load(work->X + b * LANES) - X_a;
         vec along = terms.frozen ? distance : load(x + b * LANES) - x_a;
@@ -277,12 +330,13 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
         }
         vec back = -0.5 * distance;
         for (int I = 0; I < DIM; I++) {
-            sums.force[I] += load(P_b + I * LANES) * D[I];
+            vec D = terms.transposed ? splat(work->transposed[ab * DIM + (size_t)I]) : pair.C.each[I];
+            sums.force[I] += load(P_b + I * LANES) * D;
             if (terms.reconstruct) {
                 jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * spread(back, I);
             }
         }
-        add_fluxes(work, a, b, terms, jump, distance, along, C[DIM], z, &sums);
+        add_fluxes(work, a, b, terms, jump, distance, along, pair.A, z, &sums);
     }
     return combine(&sums, terms, z);
 }
@@ -295,26 +349,39 @@ static inline __attribute__((always_inline)) void rates_with(const struct solver
     }
 }
 
+/* With linear reconstruction, on a stencil that is antisymmetric, of one material. */
+static inline __attribute__((always_inline)) void plain_rates(const struct solver_upwind *work, size_t begin,
+                                                              size_t end, bool narrow)
+{
+    if (work->frozen && !work->evolves_J) {
+        rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true, .narrow = narrow});
+    } else if (work->frozen) {
+        rates_with(work, begin, end,
+                   (struct terms){.frozen = true, .reconstruct = true, .volume = true, .narrow = narrow});
+    } else if (!work->evolves_J) {
+        rates_with(work, begin, end, (struct terms){.reconstruct = true, .narrow = narrow});
+    } else {
+        rates_with(work, begin, end, (struct terms){.reconstruct = true, .volume = true, .narrow = narrow});
+    }
+}
+
 static void rates(const struct solver_upwind *work, size_t begin, size_t end)
 {
     bool volume = work->evolves_J;
     bool plain = work->reconstruct && work->transposed == NULL && work->stride == 0 && !(volume && work->whole_jump);
-    if (plain && work->frozen && !volume) {
-        rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true});
-    } else if (plain && work->frozen) {
-        rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true, .volume = true});
-    } else if (plain && !volume) {
-        rates_with(work, begin, end, (struct terms){.reconstruct = true});
-    } else if (plain) {
-        rates_with(work, begin, end, (struct terms){.reconstruct = true, .volume = true});
-    } else { /* rare: not worth a loop each */
-        rates_with(work, begin, end,
-                   (struct terms){.frozen = work->frozen,
-                                  .reconstruct = work->reconstruct,
-                                  .transposed = work->transposed != NULL,
-                                  .volume = volume,
-                                  .whole = work->whole_jump,
-                                  .composite = work->stride != 0});
+    struct terms terms = {.frozen = work->frozen,
+                          .reconstruct = work->reconstruct,
+                          .transposed = work->transposed != NULL,
+                          .volume = volume,
+                          .whole = work->whole_jump,
+                          .composite = work->stride != 0,
+                          .narrow = work->narrow != NULL};
+    if (!plain) { /* rare: not worth a loop each */
+        rates_with(work, begin, end, terms);
+    } else if (terms.narrow) {
+        plain_rates(work, begin, end, true);
+    } else {
+        plain_rates(work, begin, end, false);
     }
 }
 
