@@ -306,8 +306,23 @@ static inline __attribute__((always_inline)) struct sums combine(const struct pa
     return all;
 }
 
+/* Neighbours lie all over memory, and the work on a pair is shorter than the way there: what a neighbour brings is
+ * asked for so many pairs ahead. */
+enum { AHEAD = 16, LINE = 64 / sizeof(double) };
+
+static inline void fetch(const struct solver_upwind *work, const double *slope, size_t b)
+{
+    for (int i = 0; i < TENSOR; i += LINE) {
+        __builtin_prefetch(work->P + b * TENSOR + i);
+        __builtin_prefetch(slope + b * TENSOR + i);
+    }
+    __builtin_prefetch(work->v + b * LANES);
+    __builtin_prefetch(work->X + b * LANES);
+}
+
+/* `last`: pair up to which neighbours may be asked for. */
 static inline __attribute__((always_inline)) struct sums sum_pairs(const struct solver_upwind *work, size_t a,
-                                                                   struct terms terms)
+                                                                   size_t last, struct terms terms)
 {
     struct pair_sums sums = {.volume = 0.0};
     const double *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
@@ -320,6 +335,7 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
     struct tensor slope_a = load_tensor(slope + a * TENSOR);
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
         size_t b = work->neighbour[ab];
+        fetch(work, slope, work->neighbour[ab + AHEAD < last ? ab + AHEAD : last]);
         struct pair pair = load_pair(work, ab, terms.narrow);
         const double *P_b = work->P + b * TENSOR;
         vec distance = load(work->X + b * LANES) - X_a;
@@ -344,8 +360,9 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
 static inline __attribute__((always_inline)) void rates_with(const struct solver_upwind *work, size_t begin, size_t end,
                                                              struct terms terms)
 {
+    size_t last = work->row[end] > 0 ? work->row[end] - 1 : 0;
     for (size_t a = begin; a < end; a++) {
-        finish(work, a, sum_pairs(work, a, terms));
+        finish(work, a, sum_pairs(work, a, last, terms));
     }
 }
 
