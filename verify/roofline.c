@@ -6,8 +6,7 @@
 #include <omp.h>
 #include <stdlib.h>
 
-enum { PASSES = 21 };
-static const double shortest_sample = 2e-3; /* [s] */
+enum { PASSES = 21, ROUNDS = 2000000 /* milliseconds */ };
 
 double verify_roof_bandwidth(double bytes, int threads)
 {
@@ -51,24 +50,17 @@ double verify_roof_bandwidth(double bytes, int threads)
 double verify_roof_flops(int threads)
 {
     const struct solver_peak_loops *loops = solver_peak();
-    size_t rounds = 1000;
     double best = 0.0;
-    for (int pass = 0; pass < PASSES;) {
+    for (int pass = 0; pass < PASSES; pass++) {
         double flops = 0.0;
         double begun = omp_get_wtime();
 #pragma omp parallel num_threads(threads) reduction(+ : flops)
         {
             double sum;
-            flops += loops->multiply_add(rounds, &sum);
+            flops += loops->multiply_add(ROUNDS, &sum);
             flops += sum > 0.0 ? 0.0 : 1.0; /* the sums are wanted */
         }
-        double seconds = omp_get_wtime() - begun;
-        if (seconds < shortest_sample) {
-            rounds *= 2;
-            continue;
-        }
-        best = fmax(best, flops / seconds);
-        pass++;
+        best = fmax(best, flops / (omp_get_wtime() - begun));
     }
     return best;
 }
