@@ -63,9 +63,9 @@ void solver_stencil_free(struct solver_stencil *stencil);
 bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const struct solver_cloud *cloud,
                                       struct solver_error *error);
 /* Rounds pairs to single precision. Those that are opposite stay so, and sums of them are taken in double precision, so
- * that forces are equal and opposite to round-off of a double, and divergence and gradient each other's adjoint. Pairs of
- * sbp2, and of sbp4 away from the boundary, are whole multiples of the unit and stay as they are; elsewhere closure and
- * linear exactness hold to single precision only. SOLVER_BAD_INPUT if the builder is not antisymmetric. */
+ * that forces are equal and opposite to round-off of a double, and divergence and gradient each other's adjoint. Pairs
+ * of sbp2, and of sbp4 away from the boundary, are whole multiples of the unit and stay as they are; elsewhere closure
+ * and linear exactness hold to single precision only. SOLVER_BAD_INPUT if the builder is not antisymmetric. */
 bool solver_stencil_narrow(struct solver_stencil *stencil, struct solver_error *error);
 /* Lets the pairs in double precision of a narrowed stencil go. */
 void solver_stencil_narrow_only(struct solver_stencil *stencil);
