@@ -8,10 +8,10 @@
 
 #include <stddef.h>
 
-#define SOLVER_DIM_PASTE(name, dim)  name##_##dim##d
-#define SOLVER_DIM_EXPAND(name, dim) SOLVER_DIM_PASTE(name, dim)
-/* DIM_NAME(f) is f_1d, f_2d or f_3d */
-#define DIM_NAME(name) SOLVER_DIM_EXPAND(name, DIM)
+#define SOLVER_DIM_PASTE(name, dim, path)  name##_##dim##d_##path
+#define SOLVER_DIM_EXPAND(name, dim, path) SOLVER_DIM_PASTE(name, dim, path)
+/* DIM_NAME(f) is f_3d_avx2 for the dimension and path (path.h) that are compiled. */
+#define DIM_NAME(name) SOLVER_DIM_EXPAND(name, DIM, PATH)
 
 #if DIM == 3
 enum { LANES = 4 };
@@ -46,18 +46,52 @@ static inline double dot(vec a, vec b)
     return sum;
 }
 
-/* a . b and a . a at once: half the shuffles of two dots. Lanes beyond DIM are zero. */
-static inline void dot_and_square(vec a, vec b, double *ab, double *aa)
+static inline vec splat(double a)
+{
+#if DIM == 3
+    return (vec){a, a, a, a};
+#elif DIM == 2
+    return (vec){a, a};
+#else
+    return (vec){a};
+#endif
+}
+
+/* Component I, a constant, in every lane. */
+static inline vec spread(vec a, int I)
+{
+#if DIM == 3
+    return I == 0   ? __builtin_shufflevector(a, a, 0, 0, 0, 0)
+           : I == 1 ? __builtin_shufflevector(a, a, 1, 1, 1, 1)
+           : I == 2 ? __builtin_shufflevector(a, a, 2, 2, 2, 2)
+                    : __builtin_shufflevector(a, a, 3, 3, 3, 3);
+#elif DIM == 2
+    return I == 0 ? __builtin_shufflevector(a, a, 0, 0) : __builtin_shufflevector(a, a, 1, 1);
+#else
+    (void)I;
+    return a;
+#endif
+}
+
+/* a . b and c . d, each in every lane: half the shuffles of two dots. Lanes beyond DIM are zero. */
+static inline void spread_dots(vec a, vec b, vec c, vec d, vec *ab, vec *cd)
 {
 #if DIM == 3
     vec first = a * b;
-    vec second = a * a;
+    vec second = c * d;
     vec pairs = __builtin_shufflevector(first, second, 0, 4, 2, 6) + __builtin_shufflevector(first, second, 1, 5, 3, 7);
-    *ab = pairs[0] + pairs[2];
-    *aa = pairs[1] + pairs[3];
+    vec both = pairs + __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1);
+    *ab = __builtin_shufflevector(both, both, 0, 0, 2, 2);
+    *cd = __builtin_shufflevector(both, both, 1, 1, 3, 3);
+#elif DIM == 2
+    vec first = a * b;
+    vec second = c * d;
+    vec both = __builtin_shufflevector(first, second, 0, 2) + __builtin_shufflevector(first, second, 1, 3);
+    *ab = __builtin_shufflevector(both, both, 0, 0);
+    *cd = __builtin_shufflevector(both, both, 1, 1);
 #else
-    *ab = dot(a, b);
-    *aa = dot(a, a);
+    *ab = a * b;
+    *cd = c * d;
 #endif
 }
 

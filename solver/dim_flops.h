@@ -8,7 +8,9 @@
 enum {
     FLOPS_TENSOR = DIM * LANES, /* one operation on each entry */
     FLOPS_DOT = LANES + DIM - 1,
-    FLOPS_DOT_AND_SQUARE = DIM == 3 ? 3 * LANES + 2 : 2 * FLOPS_DOT,
+    FLOPS_SPREAD_DOTS = DIM == 3   ? 4 * LANES
+                        : DIM == 2 ? 3 * LANES
+                                   : 2,
     FLOPS_TRACE = DIM - 1,
     FLOPS_CONTRACT = (2 * DIM - 1) * LANES + DIM - 1,
     FLOPS_COFACTOR = DIM == 3 ? 27 : 0, /* crosses are nine; in the plane signs and places change */

@@ -7,7 +7,7 @@
 
 enum { TENSOR = DIM * LANES, PAIR = DIM + 1 };
 
-/* Sums over the neighbours of one particle. */
+/* Sums over the neighbours of one particle, in units of the pair vectors. */
 struct sums {
     vec force;       /* twice the internal force: sum_b P_b D_ab + P_a sum_b C_ab */
     vec dissipation; /* twice V_a D(p_a) (eq. 30) */
@@ -17,7 +17,7 @@ struct sums {
 static inline void finish(const struct solver_upwind *work, size_t a, struct sums sums)
 {
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
-    double per_V = 1.0 / work->V[a];
+    double per_V = work->unit / work->V[a];
     for (int I = 0; I < DIM; I++) {
         sums.force += load(work->P + a * TENSOR + I * LANES) * work->row_sum[a * DIM + (size_t)I];
     }

@@ -44,6 +44,6 @@ struct solver_jst_loops {
     void (*rates)(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end);
 };
 
-extern const struct solver_jst_loops solver_jst_1d, solver_jst_2d, solver_jst_3d;
+SOLVER_DECLARE_LOOPS(struct solver_jst_loops, solver_jst);
 
 #endif

@@ -83,7 +83,7 @@ struct solver_material_model {
     const struct solver_material *in[3]; /* for 1, 2, 3 dimensions */
 };
 
-/* The table, ends with a NULL name. */
+/* The table for the path in use (path.h), ends with a NULL name. */
 const struct solver_material_model *solver_material_models(void);
 const struct solver_material_model *solver_material_find(const char *name);
 

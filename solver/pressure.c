@@ -112,8 +112,7 @@ bool solver_pressure_create(const struct solver_body *body, const struct solver_
                             const struct solver_upwind *work, struct solver_pressure **pressure,
                             struct solver_error *error)
 {
-    static const struct solver_pressure_loops *const loops[] = {&solver_pressure_1d, &solver_pressure_2d,
-                                                                &solver_pressure_3d};
+    static const struct solver_pressure_loops *const loops[][3] = SOLVER_LOOPS(solver_pressure);
     struct solver_pressure *of = NULL;
     *pressure = NULL;
     if (body->scene->incompressible.solver == SOLVER_PRESSURE_NONE) {
@@ -130,7 +129,7 @@ bool solver_pressure_create(const struct solver_body *body, const struct solver_
     of->body = body;
     of->stencil = stencil;
     of->work = work;
-    of->loops = loops[body->cloud->dim - 1];
+    of->loops = loops[solver_path()][body->cloud->dim - 1];
     set_constants(of);
     measure(of);
     return reserve(of, error);

@@ -95,7 +95,7 @@ struct solver_pressure_loops {
                    size_t end);
 };
 
-extern const struct solver_pressure_loops solver_pressure_1d, solver_pressure_2d, solver_pressure_3d;
+SOLVER_DECLARE_LOOPS(struct solver_pressure_loops, solver_pressure);
 
 /* Refuses (SOLVER_BAD_INPUT) what it cannot do, saying what to take instead. *pressure becomes NULL where the scene
  * does not ask for it. `work` needs its material and terms. */

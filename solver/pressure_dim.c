@@ -161,7 +161,7 @@ static void give_back(const struct solver_pressure *of, double *out, size_t begi
     }
 }
 
-static void spread(const struct solver_pressure *of, const double *q, double eta, double *out, size_t begin, size_t end)
+static void diffuse(const struct solver_pressure *of, const double *q, double eta, double *out, size_t begin, size_t end)
 {
     const struct solver_upwind *work = of->work;
     for (size_t a = begin; a < end; a++) {
@@ -193,6 +193,6 @@ const struct solver_pressure_loops DIM_NAME(solver_pressure) = {
     .slopes = slopes,
     .balance = balance,
     .give_back = give_back,
-    .spread = spread,
+    .spread = diffuse,
     .strays = strays,
 };

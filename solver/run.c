@@ -1,6 +1,7 @@
 #include "solver/run.h"
 
 #include "solver/memory.h"
+#include "solver/path.h"
 #include "solver/run_internal.h"
 #include "solver/symmetry.h"
 
@@ -190,6 +191,9 @@ bool solver_run_create(const struct solver_scene *scene, struct solver_run **out
     double begun = solver_run_clock();
     struct solver_run *run = NULL;
     *out = NULL;
+    if (!solver_path_check(error)) {
+        return false;
+    }
     if (!solver_alloc((void **)&run, 1, sizeof *run, "run", error)) {
         return false;
     }
@@ -245,6 +249,11 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
     /* per stage: the geometry in each pass; fields read by each, rates written; in the update state, start and rate
      * read, state and other fields written. The first stage writes the start instead of reading it. */
     double stage = passes * bytes + (passes + 1.0) * fields + 4.0 * evolved;
+    /* per stage and number that evolves: a multiply-add at first, later three, and the sum's where there is one */
+    double stages = run->integrator->stages;
+    double with_sum = run->integrator->needs_sum ? 3.0 * stages - 2.0 : 0.0;
+    double update = (2.0 + 5.0 * (stages - 1.0) + with_sum) * (double)run->state.evolved / count;
+    double flops = run->scheme->flops != NULL ? run->scheme->flops(run->system) : 0.0;
     double mass = 0.0;
     for (size_t a = 0; a < run->cloud->count; a++) {
         mass += geometry.V[a] * solver_run_density(run, a);
@@ -260,7 +269,8 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .seconds = run->seconds,
         .bytes_per_particle = state + bytes + composite,
         .state_bytes = fields,
-        .step_traffic = run->integrator->stages * stage,
+        .step_traffic = stages * stage,
+        .step_flops = flops > 0.0 ? stages * flops / count + update : 0.0,
         .stencil_residual = geometry.residual,
         .threads = run->threads,
     };

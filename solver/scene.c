@@ -1,6 +1,7 @@
 /* Loading a scene: file, run in the sandbox, plain keys, structured parts, and what must hold between keys. */
 #include "solver/material.h"
 #include "solver/scene_internal.h"
+#include "solver/stencil.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -144,6 +145,26 @@ static void check_jst(lua_State *L, struct solver_scene *scene)
         jst->plastic_at = 0.5;
 }
 
+/* Pair vectors in single precision are for what the loops of upwind take from them. */
+static void check_precision(lua_State *L, const struct solver_scene *scene)
+{
+    const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
+    if (strcmp(scene->precision, "mixed") != 0)
+        return;
+    if (strcmp(scene->scheme, "upwind") != 0)
+        scene_refuse(L, "precision: mixed is for scheme = \"upwind\", not %s; expected double", scene->scheme);
+    if (builder == NULL || !builder->antisymmetric)
+        scene_refuse(L,
+                     "precision: mixed is for antisymmetric stencils, closed, sbp2 and sbp4, not %s; expected double",
+                     scene->stencil);
+    if (scene->evolved != SOLVER_PF && strcmp(scene->volume_flux, "stress") == 0)
+        scene_refuse(L, "precision: mixed knows volume_flux = \"pressure\" alone; expected double");
+    if (scene->incompressible.solver != SOLVER_PRESSURE_NONE)
+        scene_refuse(L, "precision: mixed knows no pressure of its own (incompressible.solver); expected double");
+    if (scene->domain.cut[0] || scene->domain.cut[1] || scene->domain.cut[2])
+        scene_refuse(L, "precision: mixed knows no mirror images (domain.symmetry of a round body); expected double");
+}
+
 /* A plane wall has a point and a normal that is one. */
 static void check_rigid_wall(lua_State *L, const struct solver_scene *scene)
 {
@@ -195,6 +216,7 @@ static int read_scene(lua_State *L)
     check_jst(L, scene);
     check_rigid_wall(L, scene);
     scene_read_bodies(L, scene);
+    check_precision(L, scene);
     scene_read_die(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)
         if (solver_scene_has(scene, (enum solver_formula)f))

@@ -10,6 +10,7 @@
 
 struct system {
     struct solver_upwind_system base; /* first */
+    const struct solver_jst_loops *loops;
     struct solver_jst jst;
     double *laplacian, *exchange;
 };
@@ -103,28 +104,22 @@ static bool make_weights(struct system *system, bool harmonic, bool corrected, s
     return done;
 }
 
-static const struct solver_jst_loops *loops_of(const struct system *system)
-{
-    static const struct solver_jst_loops *const loops[] = {&solver_jst_1d, &solver_jst_2d, &solver_jst_3d};
-    return loops[system->base.body->cloud->dim - 1];
-}
-
 static void gather(const void *of, size_t begin, size_t end)
 {
     const struct system *system = of;
-    loops_of(system)->gather(&system->base.work, &system->jst, begin, end);
+    system->loops->gather(&system->base.work, &system->jst, begin, end);
 }
 
 static void rates(const void *of, size_t begin, size_t end)
 {
     const struct system *system = of;
-    loops_of(system)->rates(&system->base.work, &system->jst, begin, end);
+    system->loops->rates(&system->base.work, &system->jst, begin, end);
 }
 
 static void rate_terms(const void *of, struct solver_cost_terms *terms)
 {
     const struct system *system = of;
-    loops_of(system)->terms(&system->base.work, &system->jst, system->base.body->cloud->count, terms);
+    system->loops->terms(&system->base.work, &system->jst, system->base.body->cloud->count, terms);
 }
 
 static void arrays(const void *of, struct solver_cost_arrays *list)
@@ -138,6 +133,7 @@ static void arrays(const void *of, struct solver_cost_arrays *list)
 
 static bool create(const struct solver_body *body, void **out, struct solver_error *error)
 {
+    static const struct solver_jst_loops *const loops[][3] = SOLVER_LOOPS(solver_jst);
     const struct solver_scene *scene = body->scene;
     double dx = body->cloud->spacing;
     void *made = NULL;
@@ -145,6 +141,7 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
         return false;
     }
     struct system *system = made;
+    system->loops = loops[solver_path()][body->cloud->dim - 1];
     system->base.gather = gather;
     system->base.rates = rates;
     system->base.terms = rate_terms;

@@ -34,8 +34,8 @@ static const struct solver_material_constants *constants_of(const struct system 
 static void choose_terms(struct system *system)
 {
     const struct solver_scene *scene = system->body->scene;
-    const struct solver_ulsph_loops *loops[] = {&solver_ulsph_1d, &solver_ulsph_2d, &solver_ulsph_3d};
-    system->loops = loops[scene->dim - 1];
+    static const struct solver_ulsph_loops *const loops[][3] = SOLVER_LOOPS(solver_ulsph);
+    system->loops = loops[solver_path()][scene->dim - 1];
     system->work = (struct solver_ulsph){
         .constants = system->body->constants,
         .stride = system->body->stride,

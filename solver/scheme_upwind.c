@@ -6,6 +6,7 @@
 #include "solver/pieces.h"
 #include "solver/pressure.h"
 #include "solver/symmetry.h"
+#include "solver/upwind_flops.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,8 +16,8 @@ static void choose_terms(struct solver_upwind_system *system, const struct solve
 {
     const struct solver_scene *scene = system->body->scene;
     struct solver_upwind *work = &system->work;
-    const struct solver_upwind_loops *loops[] = {&solver_upwind_1d, &solver_upwind_2d, &solver_upwind_3d};
-    system->loops = loops[scene->dim - 1];
+    static const struct solver_upwind_loops *const loops[][3] = SOLVER_LOOPS(solver_upwind);
+    system->loops = loops[solver_path()][scene->dim - 1];
     work->material = material;
     work->evolves_J = scene->evolved != SOLVER_PF;
     work->evolves_H = scene->evolved == SOLVER_PFHJ;
@@ -34,6 +35,8 @@ static void bind_stencil(struct solver_upwind_system *system)
     system->work.row = stencil->graph.row;
     system->work.neighbour = stencil->graph.neighbour;
     system->work.pair = stencil->pair;
+    system->work.narrow = stencil->narrow;
+    system->work.unit = stencil->unit;
     system->work.transposed = stencil->transposed;
     system->work.row_sum = stencil->row_sum;
     system->work.least_squares = stencil->least_squares;
@@ -62,7 +65,8 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
         return false;
     }
     system->residuals = solver_stencil_check(*stencil, cloud);
-    return part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error);
+    return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
+           (strcmp(scene->precision, "mixed") != 0 || solver_stencil_narrow(*stencil, error));
 }
 
 bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error)
@@ -230,6 +234,7 @@ bool solver_upwind_start(void *of, struct solver_error *error)
     if (system->pressure != NULL) {
         solver_pressure_start(system->pressure);
     }
+    solver_stencil_narrow_only(system->stencil); /* the loops take the narrow ones */
     return true;
 }
 
@@ -312,6 +317,13 @@ static bool correct(void *of, const struct solver_state *state, const struct sol
         system->loops->stresses(&system->work, at.begin, at.end);
     }
     return true;
+}
+
+static double flops(const void *of)
+{
+    const struct solver_upwind_system *system = of;
+    const struct solver_stencil *stencil = system->stencil;
+    return solver_upwind_flops(&system->work, stencil->dim, stencil->count, stencil->pairs);
 }
 
 static bool keep(void *of, struct solver_keeper *keeper, struct solver_error *error)
@@ -524,6 +536,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .geometry = solver_upwind_geometry,
     .fields = solver_upwind_fields,
     .correct = correct,
+    .flops = flops,
     .keep = keep,
     .iterations = iterations,
     .arrays = solver_upwind_arrays,

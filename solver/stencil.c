@@ -87,6 +87,7 @@ bool solver_stencil_reserve(struct solver_stencil *stencil, const struct solver_
     stencil->dim = cloud->dim;
     stencil->count = cloud->count;
     stencil->spacing = cloud->spacing;
+    stencil->unit = 1.0;
     stencil->pairs = stencil->graph.row[cloud->count];
     stencil->face_point_count = cloud->face_point_count;
     if (!solver_alloc((void **)&stencil->pair, stencil->pairs * (dim + 1), sizeof(double), "pair vectors", error) ||
@@ -178,6 +179,7 @@ void solver_stencil_free(struct solver_stencil *stencil)
     }
     solver_graph_free(&stencil->graph);
     free(stencil->pair);
+    free(stencil->narrow);
     free(stencil->transposed);
     free(stencil->row_sum);
     free(stencil->least_squares);
@@ -233,6 +235,8 @@ void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_c
     solver_graph_arrays(&stencil->graph, group, arrays);
     solver_cost_array(arrays, group, "pair vectors and areas", stencil->pair, stencil->pairs * (dim + 1),
                       sizeof(double));
+    solver_cost_array(arrays, group, "narrow pair vectors and areas", stencil->narrow, stencil->pairs * (dim + 1),
+                      sizeof(float));
     solver_cost_array(arrays, group, "transposed", stencil->transposed, stencil->pairs * dim, sizeof(double));
     solver_cost_array(arrays, group, "least squares", stencil->least_squares, stencil->pairs * dim, sizeof(double));
     solver_cost_array(arrays, group, "row sums", stencil->row_sum, stencil->count * dim, sizeof(double));
@@ -245,7 +249,8 @@ void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_c
 size_t solver_stencil_bytes(const struct solver_stencil *stencil)
 {
     size_t dim = (size_t)stencil->dim;
-    size_t per_pair = sizeof *stencil->graph.neighbour + (dim + 1) * sizeof(double) +
+    size_t per_pair = sizeof *stencil->graph.neighbour + (stencil->pair != NULL ? (dim + 1) * sizeof(double) : 0) +
+                      (stencil->narrow != NULL ? (dim + 1) * sizeof(float) : 0) +
                       (stencil->transposed != NULL ? dim * sizeof(double) : 0) +
                       (stencil->least_squares != NULL ? dim * sizeof(double) : 0);
     size_t per_particle =

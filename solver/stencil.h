@@ -22,6 +22,9 @@ struct solver_stencil {
     double *pair;          /* [pairs][dim + 1]: C_ab, then the face measure A_ab of the upwind dissipation,
                                   max(0, (C_ab - C_ba)/2 . N_ab) unless the builder knows better; one record, so that a
                                   pair is one place in memory */
+    float *narrow;         /* [pairs][dim + 1] the same in units of `unit`, once the stencil is narrowed; then pair, and
+                              row_sum / unit, are those of the rounded numbers */
+    double unit;           /* [m^(dim-1)]; 1 until then, and row_sum is in its units */
     double *transposed;    /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
     double *row_sum;       /* [count][dim] sum_b C_ab */
     double *least_squares; /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
@@ -62,6 +65,13 @@ void solver_stencil_free(struct solver_stencil *stencil);
 bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const struct solver_cloud *cloud,
                                       struct solver_error *error);
 void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_cost_arrays *arrays);
+/* Rounds pairs to single precision. Those that are opposite stay so, and sums of them are taken in double precision, so
+ * that forces are equal and opposite to round-off of a double, and divergence and gradient each other's adjoint. Pairs
+ * of sbp2, and of sbp4 away from the boundary, are whole multiples of the unit and stay as they are; elsewhere closure
+ * and linear exactness hold to single precision only. SOLVER_BAD_INPUT if the builder is not antisymmetric. */
+bool solver_stencil_narrow(struct solver_stencil *stencil, struct solver_error *error);
+/* Lets the pairs in double precision of a narrowed stencil go. */
+void solver_stencil_narrow_only(struct solver_stencil *stencil);
 size_t solver_stencil_bytes(const struct solver_stencil *stencil);
 
 /* How well a stencil keeps its promises: largest violations over all particles, each relative to the size of what it

@@ -8,6 +8,7 @@
 
 #include "solver/cost.h"
 #include "solver/material.h"
+#include "solver/path.h"
 #include "solver/scene.h"
 
 #include <stddef.h>
@@ -66,6 +67,6 @@ struct solver_ulsph_loops {
     size_t (*first_broken)(const struct solver_ulsph *work, size_t begin, size_t end);
 };
 
-extern const struct solver_ulsph_loops solver_ulsph_1d, solver_ulsph_2d, solver_ulsph_3d;
+SOLVER_DECLARE_LOOPS(struct solver_ulsph_loops, solver_ulsph);
 
 #endif

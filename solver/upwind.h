@@ -5,6 +5,7 @@
 
 #include "solver/cost.h"
 #include "solver/material.h"
+#include "solver/path.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -14,6 +15,8 @@ struct solver_upwind {
     const size_t *row;
     const uint32_t *neighbour;
     const double *pair, *transposed, *row_sum, *V;
+    const float *narrow;         /* in place of pair where the precision is mixed; NULL: it is double */
+    double unit;                 /* of narrow, and then of row_sum; else 1 */
     const double *least_squares; /* NULL: reconstruct with the stencil's own gradient */
 
     /* What the scene asks for. */
@@ -63,6 +66,6 @@ struct solver_upwind_loops {
     void (*measures)(bool linear, size_t begin, size_t end, const double *F, double *H, double *J);
 };
 
-extern const struct solver_upwind_loops solver_upwind_1d, solver_upwind_2d, solver_upwind_3d;
+SOLVER_DECLARE_LOOPS(struct solver_upwind_loops, solver_upwind);
 
 #endif

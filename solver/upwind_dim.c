@@ -1,24 +1,66 @@
 #include "solver/upwind.h"
 
 #include "solver/dim_flops.h"
+#include "solver/dim_pairs.h"
 #include "solver/dim_sums.h"
 
 #include <math.h>
 
-/* sum_b (f_b - f_a) w_ab of a vector field, weights [pairs] with the given stride. */
-static inline struct tensor vector_gradient(const struct solver_upwind *work, size_t a, const double *field,
-                                            const double *weights, size_t stride)
+/* Gradients of a vector field and, if asked for, of a scalar one. */
+struct gradients {
+    struct tensor of_vector;
+    vec of_scalar;
+};
+
+/* Which weights gradients are summed with. */
+enum weighting { WIDE, NARROW, LEAST_SQUARES };
+
+static inline __attribute__((always_inline)) void add_difference(const struct solver_upwind *work,
+                                                                 enum weighting weighting, size_t ab, vec difference,
+                                                                 const double *scalar, double scalar_a,
+                                                                 struct gradients *G)
 {
-    struct tensor G = {{{0}}};
-    vec f_a = load(field + a * LANES);
-    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
-        const double *w = weights + ab * stride;
-        vec difference = load(field + (size_t)work->neighbour[ab] * LANES) - f_a;
-        for (int I = 0; I < DIM; I++) {
-            G.column[I] += difference * w[I];
-        }
+    struct weights w = weighting == LEAST_SQUARES ? load_weights(work->least_squares + ab * DIM, DIM)
+                                                  : load_pair(work, ab, weighting == NARROW).C;
+    for (int I = 0; I < DIM; I++) {
+        G->of_vector.column[I] += difference * w.each[I];
     }
-    return G;
+    if (scalar != NULL) {
+        G->of_scalar += (*scalar - scalar_a) * w.together;
+    }
+}
+
+/* sum_b (f_b - f_a) w_ab; `scalar` may be NULL. Sums over every other neighbour are kept apart, so that one does not
+ * wait for the last; on a line there are too few for that. */
+static inline __attribute__((always_inline)) struct gradients sum_gradients(const struct solver_upwind *work, size_t a,
+                                                                            const double *field, const double *scalar,
+                                                                            enum weighting weighting)
+{
+    struct gradients even = {.of_scalar = {0}};
+    struct gradients odd = {.of_scalar = {0}};
+    const uint32_t *neighbour = work->neighbour;
+    vec f_a = load(field + a * LANES);
+    double s_a = scalar != NULL ? scalar[a] : 0.0;
+    size_t ab = work->row[a];
+    size_t end = work->row[a + 1];
+    for (; DIM > 1 && ab + 1 < end; ab += 2) {
+        size_t b = neighbour[ab];
+        size_t c = neighbour[ab + 1];
+        add_difference(work, weighting, ab, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
+                       &even);
+        add_difference(work, weighting, ab + 1, load(field + c * LANES) - f_a, scalar != NULL ? scalar + c : NULL, s_a,
+                       &odd);
+    }
+    for (; ab < end; ab++) {
+        size_t b = neighbour[ab];
+        add_difference(work, weighting, ab, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
+                       &even);
+    }
+    for (int I = 0; I < DIM; I++) {
+        even.of_vector.column[I] += odd.of_vector.column[I];
+    }
+    even.of_scalar += odd.of_scalar;
+    return even;
 }
 
 /* The same of the stress: DIM tensors, derivative along each reference axis, scaled. */
@@ -44,41 +86,55 @@ static inline void stress_gradient(const struct solver_upwind *work, size_t a, c
     }
 }
 
-static inline vec scalar_gradient(const struct solver_upwind *work, size_t a, const double *field,
-                                  const double *weights, size_t stride)
+static inline void store_slope(double *to, vec slope)
 {
-    vec G = {0};
-    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
-        double difference = field[work->neighbour[ab]] - field[a];
+    for (int I = DIM; I < LANES; I++) {
+        slope[I] = 0.0;
+    }
+    store(to, slope);
+}
+
+/* The stencil's own gradients, which are the rate of F; of U'(J) if `pressure`. */
+static inline __attribute__((always_inline)) void gradients_with(const struct solver_upwind *work, size_t begin,
+                                                                 size_t end, bool pressure, bool narrow)
+{
+    for (size_t a = begin; a < end; a++) {
+        double half_per_V = 0.5 * work->unit / work->V[a];
+        struct gradients G = sum_gradients(work, a, work->v, pressure ? work->pressure : NULL, narrow ? NARROW : WIDE);
         for (int I = 0; I < DIM; I++) {
-            G[I] += difference * weights[ab * stride + (size_t)I];
+            store(work->F_rate + a * TENSOR + I * LANES, G.of_vector.column[I] * half_per_V);
+        }
+        store(work->x_rate + a * LANES, load(work->v + a * LANES));
+        if (pressure) {
+            store_slope(work->pressure_gradient + a * LANES, half_per_V * G.of_scalar);
         }
     }
-    return G;
 }
 
 static void gradients(const struct solver_upwind *work, size_t begin, size_t end)
 {
-    for (size_t a = begin; a < end; a++) {
-        double half_per_V = 0.5 / work->V[a];
-        struct tensor G = vector_gradient(work, a, work->v, work->pair, PAIR);
-        for (int I = 0; I < DIM; I++) {
-            store(work->F_rate + a * TENSOR + I * LANES, G.column[I] * half_per_V);
+    bool own = work->least_squares == NULL; /* the reconstruction takes the stencil's gradients */
+    bool pressure = own && work->pressure_gradient != NULL;
+    if (work->narrow != NULL && pressure) {
+        gradients_with(work, begin, end, true, true);
+    } else if (work->narrow != NULL) {
+        gradients_with(work, begin, end, false, true);
+    } else if (pressure) {
+        gradients_with(work, begin, end, true, false);
+    } else {
+        gradients_with(work, begin, end, false, false);
+    }
+    for (size_t a = begin; !own && work->v_gradient != NULL && a < end; a++) {
+        const double *field = work->pressure_gradient != NULL ? work->pressure : NULL;
+        struct gradients G = sum_gradients(work, a, work->v, field, LEAST_SQUARES);
+        store_tensor(work->v_gradient + a * TENSOR, G.of_vector);
+        if (field != NULL) {
+            store_slope(work->pressure_gradient + a * LANES, G.of_scalar);
         }
-        store(work->x_rate + a * LANES, load(work->v + a * LANES));
-        if (work->v_gradient != NULL) {
-            store_tensor(work->v_gradient + a * TENSOR, vector_gradient(work, a, work->v, work->least_squares, DIM));
-        }
-        const double *weights = work->least_squares != NULL ? work->least_squares : work->pair;
-        size_t stride = work->least_squares != NULL ? DIM : PAIR;
-        double scale = work->least_squares != NULL ? 1.0 : half_per_V;
-        if (work->pressure_gradient != NULL) {
-            store(work->pressure_gradient + a * LANES,
-                  scale * scalar_gradient(work, a, work->pressure, weights, stride));
-        }
-        if (work->P_gradient != NULL) {
-            stress_gradient(work, a, weights, stride, scale);
-        }
+    }
+    for (size_t a = begin; work->P_gradient != NULL && a < end; a++) {
+        stress_gradient(work, a, own ? work->pair : work->least_squares, own ? PAIR : DIM,
+                        own ? 0.5 / work->V[a] : 1.0);
     }
 }
 
@@ -93,17 +149,6 @@ static inline struct impedances pair_impedances(const struct solver_material_con
 {
     return (struct impedances){.p = 2.0 * of_a->zp * of_b->zp / (of_a->zp + of_b->zp),
                                .s = 2.0 * of_a->zs * of_b->zs / (of_a->zs + of_b->zs)};
-}
-
-/* Upwind flux of momentum across the pair: A S (p+ - p-), twice (eq. 27, 28), from the jump of velocity, with the
- * states reconstructed at mid-distance. n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) =
- * along (along . jump) / |along|^2. */
-static inline vec momentum_flux(struct impedances z, vec jump, vec along, double face)
-{
-    double normal;
-    double square;
-    dot_and_square(along, jump, &normal, &square);
-    return face * (z.s * jump + ((z.p - z.s) * normal / square) * along);
 }
 
 /* Reconstructed jump of the stress times the pair's distance, (P+ - P-) d (eq. 27, 34). */
@@ -124,110 +169,186 @@ static inline vec traction_jump(const struct solver_upwind *work, size_t a, size
     return traction;
 }
 
-/* Reconstructed jump of the volumetric stress U'(J). */
-static inline double pressure_jump(const struct solver_upwind *work, size_t a, size_t b, vec distance, bool reconstruct)
-{
-    double jump = work->pressure[b] - work->pressure[a];
-    if (reconstruct) {
-        vec slope = load(work->pressure_gradient + a * LANES) + load(work->pressure_gradient + b * LANES);
-        jump -= 0.5 * dot(slope, distance);
-    }
-    return jump;
-}
-
-/* Upwind flux of J (eq. 27, 28, 30, 33), times 2 z_p: A (n . (P+ - P-) N) (n . H^Ave N). Eq. 33 as printed has the
- * sign that would feed energy in; this is that of eq. 30. A N stands for C_ab, as in the flux of p. By default only the
- * volumetric part U'(J) H of the stress jumps: J is conjugate to it alone, so that without reconstruction the flux
- * cannot feed energy in, and its gradient is a vector instead of a third-order tensor. */
-static inline double volume_flux(const struct solver_upwind *work, size_t a, size_t b, vec distance, vec along,
-                                 double face, bool reconstruct)
-{
-    vec area = distance;
-    if (!work->frozen) {
-        area = (vec){0};
-        for (int I = 0; I < DIM; I++) {
-            area += (load(work->cofactor + a * TENSOR + I * LANES) + load(work->cofactor + b * TENSOR + I * LANES)) *
-                    (0.5 * distance[I]);
-        }
-    }
-    double normal = dot(along, area);
-    double traction = work->whole_jump ? dot(along, traction_jump(work, a, b, distance, reconstruct))
-                                       : normal * pressure_jump(work, a, b, distance, reconstruct);
-    return face * traction * normal / (dot(along, along) * dot(distance, distance));
-}
-
 /* What the scene asks for, as constants where the sums are called, so that each combination is a loop of its own. */
 struct terms {
-    bool frozen, reconstruct, transposed, volume, composite;
+    bool frozen, reconstruct, transposed, volume, whole, composite, narrow;
 };
 
-static inline __attribute__((always_inline)) struct sums sum_pairs(const struct solver_upwind *work, size_t a,
-                                                                   struct terms terms)
+/* n (n . H^Ave N): what becomes of the unit vector N, not normalised, as the pair's area. */
+static inline __attribute__((always_inline)) vec pair_area(const struct solver_upwind *work, size_t a, size_t b,
+                                                           vec distance)
 {
-    struct sums sums = {.volume = 0.0};
+    vec area = {0};
+    for (int I = 0; I < DIM; I++) {
+        area += (load(work->cofactor + a * TENSOR + I * LANES) + load(work->cofactor + b * TENSOR + I * LANES)) *
+                spread(0.5 * distance, I);
+    }
+    return area;
+}
+
+/* Sums over the neighbours of one particle, before what is the same for all of them is multiplied in. Components are
+ * summed apart as long as they may be: that is fewer shuffles, and no sum waits long for its last term. */
+struct pair_sums {
+    vec force[DIM]; /* sum_b P_b e_I D_I */
+    vec jumps;      /* sum_b A [v] */
+    vec normals;    /* sum_b A n (n . [v]) */
+    vec slopes;     /* sum_b A n^2 (slope of U' times N d), by components; n = n . H^Ave N here and below */
+    double volume;  /* sum_b A n^2 [U'], not reconstructed, or A n (n . [P N]) */
+};
+
+/* Upwind fluxes across a pair, twice: of momentum, A S (p+ - p-) (eq. 27, 28), from the jump of velocity with the
+ * states reconstructed at mid-distance; n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) =
+ * along (along . jump) / |along|^2. And of J (eq. 27, 28, 30, 33), times 2 z_p: A (n . (P+ - P-) N) (n . H^Ave N).
+ * Eq. 33 as printed has the sign that would feed energy in; this is that of eq. 30. A N stands for C_ab, as in the flux
+ * of p. By default only the volumetric part U'(J) H of the stress jumps: J is conjugate to it alone, so that without
+ * reconstruction the flux cannot feed energy in, and its gradient is a vector instead of a third-order tensor. */
+static inline __attribute__((always_inline)) void add_fluxes(const struct solver_upwind *work, size_t a, size_t b,
+                                                             struct terms terms, vec jump, vec distance, vec along,
+                                                             vec face, struct impedances z, struct pair_sums *sums)
+{
+    bool alike = !terms.composite || /* where materials meet the volumetric stress has a jump of its own */
+                 work->constants[a].kappa == work->constants[b].kappa;
+    vec normal;
+    vec square;
+    vec by_normal; /* A / |along|^2 */
+    vec by_volume; /* A n^2; frozen: n = N, H = 1 */
+    spread_dots(along, jump, along, along, &normal, &square);
+    if (terms.volume && (!terms.frozen || terms.whole)) {
+        vec area = terms.frozen ? distance : pair_area(work, a, b, distance);
+        vec turned;
+        vec reference;
+        spread_dots(along, area, distance, distance, &turned, &reference);
+        vec share = face / (square * reference);
+        by_normal = share * reference;
+        by_volume = share * turned;
+        if (terms.whole) {
+            double flux = by_volume[0] * dot(along, traction_jump(work, a, b, distance, terms.reconstruct));
+            sums->volume += alike ? flux : 0.0;
+        }
+        by_volume *= turned;
+    } else {
+        by_normal = face / square;
+        by_volume = face;
+    }
+    sums->jumps += (terms.composite ? z.s * face : face) * jump;
+    sums->normals += (terms.composite ? (z.p - z.s) * normal * by_normal : normal * by_normal) * along;
+    if (terms.volume && !terms.whole && alike) {
+        sums->volume += by_volume[0] * (work->pressure[b] - work->pressure[a]);
+        if (terms.reconstruct) {
+            vec slope = load(work->pressure_gradient + a * LANES) + load(work->pressure_gradient + b * LANES);
+            sums->slopes += by_volume * (slope * distance);
+        }
+    }
+}
+
+static inline __attribute__((always_inline)) struct sums combine(const struct pair_sums *sums, struct terms terms,
+                                                                 struct impedances z)
+{
+    struct sums all = {.force = sums->force[0], .volume = sums->volume};
+    for (int I = 1; I < DIM; I++) {
+        all.force += sums->force[I];
+    }
+    all.dissipation = terms.composite ? sums->jumps + sums->normals : z.s * sums->jumps + (z.p - z.s) * sums->normals;
+    for (int I = 0; I < DIM; I++) {
+        all.volume -= 0.5 * sums->slopes[I];
+    }
+    return all;
+}
+
+/* Neighbours lie all over memory, and the work on a pair is shorter than the way there: what a neighbour brings is
+ * asked for so many pairs ahead. */
+enum { AHEAD = 16, LINE = 64 / sizeof(double) };
+
+static inline void fetch(const struct solver_upwind *work, const double *slope, size_t b)
+{
+    for (int i = 0; i < TENSOR; i += LINE) {
+        __builtin_prefetch(work->P + b * TENSOR + i);
+        __builtin_prefetch(slope + b * TENSOR + i);
+    }
+    __builtin_prefetch(work->v + b * LANES);
+    __builtin_prefetch(work->X + b * LANES);
+}
+
+/* `last`: pair up to which neighbours may be asked for. */
+static inline __attribute__((always_inline)) struct sums sum_pairs(const struct solver_upwind *work, size_t a,
+                                                                   size_t last, struct terms terms)
+{
+    struct pair_sums sums = {.volume = 0.0};
     const double *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
+    const double *x = terms.frozen ? work->X : work->x;
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
     struct impedances z = {of_a->zp, of_a->zs};
     bool placed = terms.frozen || terms.reconstruct || terms.volume; /* else X need not be there */
     vec X_a = placed ? load(work->X + a * LANES) : (vec){0};
-    vec x_a = load((terms.frozen ? work->X : work->x) + a * LANES);
+    vec x_a = load(x + a * LANES);
     vec v_a = load(work->v + a * LANES);
     struct tensor slope_a = load_tensor(slope + a * TENSOR);
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
         size_t b = work->neighbour[ab];
-        const double *C = work->pair + ab * PAIR;
-        const double *D = terms.transposed ? work->transposed + ab * DIM : C;
+        fetch(work, slope, work->neighbour[ab + AHEAD < last ? ab + AHEAD : last]);
+        struct pair pair = load_pair(work, ab, terms.narrow);
         const double *P_b = work->P + b * TENSOR;
         vec distance = placed ? load(work->X + b * LANES) - X_a : (vec){0};
-        vec along = terms.frozen ? distance : load(work->x + b * LANES) - x_a;
+        vec along = terms.frozen ? distance : load(x + b * LANES) - x_a;
         vec jump = load(work->v + b * LANES) - v_a;
-        bool alike = true;
         if (terms.composite) {
-            const struct solver_material_constants *of_b = work->constants + b;
-            z = pair_impedances(of_a, of_b);
-            alike = of_a->kappa == of_b->kappa; /* where materials meet the volumetric stress has a jump of its own */
+            z = pair_impedances(of_a, work->constants + b);
         }
+        vec back = -0.5 * distance;
         for (int I = 0; I < DIM; I++) {
-            sums.force += load(P_b + I * LANES) * D[I];
+            vec D = terms.transposed ? splat(work->transposed[ab * DIM + (size_t)I]) : pair.C.each[I];
+            sums.force[I] += load(P_b + I * LANES) * D;
             if (terms.reconstruct) {
-                jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * (-0.5 * distance[I]);
+                jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * spread(back, I);
             }
         }
-        sums.dissipation += momentum_flux(z, jump, along, C[DIM]);
-        if (terms.volume && alike) {
-            sums.volume += volume_flux(work, a, b, distance, along, C[DIM], terms.reconstruct);
-        }
+        add_fluxes(work, a, b, terms, jump, distance, along, pair.A, z, &sums);
     }
-    return sums;
+    return combine(&sums, terms, z);
 }
 
 static inline __attribute__((always_inline)) void rates_with(const struct solver_upwind *work, size_t begin, size_t end,
                                                              struct terms terms)
 {
+    size_t last = work->row[end] > 0 ? work->row[end] - 1 : 0;
     for (size_t a = begin; a < end; a++) {
-        finish(work, a, sum_pairs(work, a, terms));
+        finish(work, a, sum_pairs(work, a, last, terms));
+    }
+}
+
+/* With linear reconstruction, on a stencil that is antisymmetric, of one material. */
+static inline __attribute__((always_inline)) void plain_rates(const struct solver_upwind *work, size_t begin,
+                                                              size_t end, bool narrow)
+{
+    if (work->frozen && !work->evolves_J) {
+        rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true, .narrow = narrow});
+    } else if (work->frozen) {
+        rates_with(work, begin, end,
+                   (struct terms){.frozen = true, .reconstruct = true, .volume = true, .narrow = narrow});
+    } else if (!work->evolves_J) {
+        rates_with(work, begin, end, (struct terms){.reconstruct = true, .narrow = narrow});
+    } else {
+        rates_with(work, begin, end, (struct terms){.reconstruct = true, .volume = true, .narrow = narrow});
     }
 }
 
 static void rates(const struct solver_upwind *work, size_t begin, size_t end)
 {
-    bool plain = work->reconstruct && work->transposed == NULL && work->stride == 0;
     bool volume = work->evolves_J;
-    if (plain && work->frozen && !volume) {
-        rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true});
-    } else if (plain && work->frozen) {
-        rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true, .volume = true});
-    } else if (plain && !volume) {
-        rates_with(work, begin, end, (struct terms){.reconstruct = true});
-    } else if (plain) {
-        rates_with(work, begin, end, (struct terms){.reconstruct = true, .volume = true});
-    } else { /* rare: not worth a loop each */
-        rates_with(work, begin, end,
-                   (struct terms){.frozen = work->frozen,
-                                  .reconstruct = work->reconstruct,
-                                  .transposed = work->transposed != NULL,
-                                  .volume = volume,
-                                  .composite = work->stride != 0});
+    bool plain = work->reconstruct && work->transposed == NULL && work->stride == 0 && !(volume && work->whole_jump);
+    struct terms terms = {.frozen = work->frozen,
+                          .reconstruct = work->reconstruct,
+                          .transposed = work->transposed != NULL,
+                          .volume = volume,
+                          .whole = work->whole_jump,
+                          .composite = work->stride != 0,
+                          .narrow = work->narrow != NULL};
+    if (!plain) { /* rare: not worth a loop each */
+        rates_with(work, begin, end, terms);
+    } else if (terms.narrow) {
+        plain_rates(work, begin, end, true);
+    } else {
+        plain_rates(work, begin, end, false);
     }
 }
 
@@ -293,47 +414,56 @@ static void measures(bool linear, size_t begin, size_t end, const double *F, dou
 
 /* --- operations (cost.h) --- */
 
+enum { JOIN = FLOPS_TENSOR + LANES }; /* of the sums over every other neighbour */
+
 static void gradient_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
 {
     double pairs = (double)work->row[count];
     double particles = (double)count;
-    double of_vector = pairs * (LANES + FLOPS_ADD_SCALED);
+    double of_vector = pairs * (LANES + FLOPS_ADD_SCALED) + particles * JOIN;
     bool own = work->least_squares != NULL;
-    solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (1.0 + FLOPS_TENSOR));
+    solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (2.0 + FLOPS_TENSOR));
     if (work->v_gradient != NULL) {
         solver_cost_term(terms, "gradient of v by least squares", 1, of_vector);
     }
     if (work->pressure_gradient != NULL) {
         solver_cost_term(terms, own ? "gradient of U'(J) by least squares" : "gradient of U'(J)", 1,
-                         pairs * (1.0 + 2.0 * DIM) + particles * LANES);
+                         pairs * (1.0 + 2.0 * LANES) + (own ? 0.0 : particles * LANES));
     }
     if (work->P_gradient != NULL) {
         solver_cost_term(terms, own ? "gradient of P by least squares" : "gradient of P", 1,
-                         pairs * DIM * (LANES + FLOPS_ADD_SCALED) + particles * DIM * FLOPS_TENSOR);
+                         pairs * DIM * (LANES + FLOPS_ADD_SCALED) +
+                             particles * (DIM * FLOPS_TENSOR + (own ? 0.0 : 1.0)));
     }
 }
 
-/* Of one pair: what reconstruction takes from the jump of a vector along each axis. */
-enum { RECONSTRUCTION = DIM * (3 * LANES + 1) };
+/* Whether pairs have a turned area: else n = N. */
+static bool turns(const struct solver_upwind *work)
+{
+    return work->evolves_J && (!work->frozen || work->whole_jump);
+}
 
 static void volume_terms(const struct solver_upwind *work, double pairs, struct solver_cost_terms *terms)
 {
-    double area = work->frozen ? 0.0 : RECONSTRUCTION; /* of the same form */
-    double jump = work->whole_jump ? 3.0 * FLOPS_TENSOR + FLOPS_DOT : 2.0;
-    double slope = work->whole_jump ? DIM * RECONSTRUCTION : LANES + FLOPS_DOT + 2.0;
-    solver_cost_term(terms, "dissipation of J", 2, pairs * (area + FLOPS_DOT + jump + 5.0 + 2.0 * FLOPS_DOT));
+    double area = (work->frozen ? 0.0 : 4.0 * FLOPS_TENSOR) + FLOPS_SPREAD_DOTS + 5.0 * LANES;
+    double jump = work->whole_jump ? 3.0 * FLOPS_TENSOR + FLOPS_DOT + 2.0 : 3.0;
+    double slope = work->whole_jump ? DIM * (3.0 * FLOPS_TENSOR + DIM) : 4.0 * LANES;
+    solver_cost_term(terms, "dissipation of J", 2, pairs * ((turns(work) ? area : 0.0) + jump));
     solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? pairs * slope : 0.0);
 }
 
 static void rate_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
 {
     double pairs = (double)work->row[count];
-    double vectors = 1.0 + (work->X != NULL ? 1.0 : 0.0) + (work->frozen ? 0.0 : 1.0); /* jump, distance, along */
-    double flux = FLOPS_DOT_AND_SQUARE + 5.0 * LANES + 3.0;
-    solver_cost_term(terms, "internal force", 2, pairs * FLOPS_ADD_SCALED);
-    solver_cost_term(terms, "dissipation of p", 2, pairs * (vectors * LANES + flux));
-    solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * RECONSTRUCTION : 0.0);
-    solver_cost_term(terms, "impedances where materials meet", 2, work->stride != 0 ? pairs * 8.0 : 0.0);
+    double particles = (double)count;
+    double vectors = 2.0 + (work->X != NULL ? 1.0 : 0.0) + (work->frozen ? 0.0 : 1.0); /* jump, back, distance, along */
+    double flux = FLOPS_SPREAD_DOTS + (turns(work) ? 5.0 : 6.0) * LANES;
+    double sum = (work->stride != 0 ? LANES : 3.0 * LANES + 1.0) + 2.0 * DIM;
+    solver_cost_term(terms, "internal force", 2, pairs * FLOPS_ADD_SCALED + particles * (DIM - 1) * LANES);
+    solver_cost_term(terms, "dissipation of p", 2, pairs * (vectors * LANES + flux) + particles * sum);
+    solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * 3.0 * FLOPS_TENSOR : 0.0);
+    solver_cost_term(terms, "impedances where materials meet", 2,
+                     work->stride != 0 ? pairs * (9.0 + 2.0 * LANES) : 0.0);
     if (work->evolves_J) {
         volume_terms(work, pairs, terms);
     }

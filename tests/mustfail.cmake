@@ -14,7 +14,8 @@ assay_test(mustfail-first-order-reconstruction LABELS gate mustfail COMMAND ${mu
 
 # Mutants: the program with one of its sources broken as tests/mutants/NAME.mutant says; the solver holds no code for
 # tests. The broken object stands on the command line, so the linker has no use for that of the library; had it, both
-# would define the same names, which is an error. Debug builds, which run the unit programs only, go without.
+# would define the same names, which is an error. Hot loops are broken on the baseline path, which is all that the tests
+# of mutants run. Debug builds, which run the unit programs only, go without.
 if(NOT CMAKE_BUILD_TYPE STREQUAL "Release")
   message(STATUS "no mutants: they are for the build type Release")
   return()
@@ -72,12 +73,13 @@ function(assay_mutant name gates)
   assay_mutant_source(${name})
   set(library assay_solver)
   if(through MATCHES "_dim\\.c$")
-    set(library assay_solver_3d) # all scenes of these tests are in 3D
+    set(library assay_solver_3d_baseline) # all scenes of these tests are in 3D
   endif()
   assay_mutate(${name} ${library})
   add_executable(mutant_${name} ${objects} $<TARGET_OBJECTS:assay_main>)
   target_link_libraries(mutant_${name} PRIVATE assay_verify)
-  assay_test(mustfail-${name} LABELS gate mustfail COMMAND ${mustfail} mustfail/${name} ${gates}
+  assay_test(mustfail-${name} LABELS gate mustfail ENVIRONMENT ASSAY_ISA=baseline
+    COMMAND ${mustfail} mustfail/${name} ${gates}
     $<TARGET_FILE:assay> ${ARGN} -- $<TARGET_FILE:mutant_${name}> ${ARGN})
 endfunction()
 
@@ -86,7 +88,7 @@ function(assay_unit_mutant name unit test)
   assay_mutant_source(${name})
   set(libraries assay_solver)
   if(through MATCHES "_dim\\.c$")
-    set(libraries assay_solver_1d assay_solver_2d assay_solver_3d)
+    set(libraries assay_solver_1d_baseline assay_solver_2d_baseline assay_solver_3d_baseline)
   elseif(through MATCHES "^verify/")
     set(libraries assay_verify)
   endif()
@@ -94,7 +96,8 @@ function(assay_unit_mutant name unit test)
   add_executable(mutant_${name} ${objects} unit/${unit}.c ${unit_frame})
   string(REGEX MATCH "^[a-z]+" room ${unit})
   target_link_libraries(mutant_${name} PRIVATE assay_${room} PkgConfig::CUNIT)
-  assay_test(mustfail-${name} LABELS unit mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/mustfail_unit.sh ${test}
+  assay_test(mustfail-${name} LABELS unit mustfail ENVIRONMENT ASSAY_ISA=baseline
+    COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/mustfail_unit.sh ${test}
     $<TARGET_FILE:test_${unit}> $<TARGET_FILE:mutant_${name}>)
 endfunction()
 

@@ -56,6 +56,12 @@ assay_test(cli-list-awaited LABELS unit COMMAND ${cli} 0 "the solver lacks incom
 assay_test(cli-list-schemes LABELS unit COMMAND ${cli} 0 "cofactor H" ${assay} list schemes)
 assay_test(cli-bench-without-stencil LABELS unit COMMAND ${cli} 0 "-        -             125"
   ${assay} bench swinging-cube --set scheme=ulsph --set n=4)
+assay_test(cli-bench-levels LABELS unit COMMAND ${cli} 0 "-        -              64"
+  ${assay} bench swinging-cube --set scheme=ulsph --levels 3,4)
+assay_test(cli-version-path LABELS unit ENVIRONMENT ASSAY_ISA=baseline COMMAND ${cli} 0 "loops for baseline"
+  ${assay} --version)
+assay_test(cli-path-refused LABELS unit mustfail ENVIRONMENT ASSAY_ISA=avx1024 COMMAND ${cli} 2
+  "ASSAY_ISA is \"avx1024\"" ${assay} run swinging-cube --set n=8 --out test-out/path)
 assay_test(cli-list-materials LABELS unit COMMAND ${cli} 0 "Hooke's law" ${assay} list materials)
 assay_test(cli-list-stencils LABELS unit COMMAND ${cli} 0 "summation-by-parts 4-2" ${assay} list stencils)
 assay_test(cli-list-claims LABELS unit COMMAND ${cli} 0 "to degree 4, 2 at the boundary" ${assay} list stencils)

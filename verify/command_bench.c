@@ -1,12 +1,15 @@
-/* assay bench: what a particle-step costs, beside what the machine's memory allows. */
+/* assay bench: what a particle-step costs, beside what the machine allows at best. */
 #include "verify/commands.h"
 #include "verify/find.h"
 #include "verify/overrides.h"
+#include "verify/roofline.h"
 #include "verify/simulate.h"
 #include "verify/study.h"
 #include "verify/timing.h"
 
 #include "solver/integrator.h"
+#include "solver/path.h"
+#include "solver/peak.h"
 #include "solver/run.h"
 #include "solver/stencil.h"
 
@@ -14,8 +17,30 @@
 #include <stdio.h>
 #include <string.h>
 
-/* `stencil` and `evolved` are NULL where the scheme has none. */
-static bool row(const struct verify_options *options, const char *stencil, const char *evolved,
+/* The line of a run that has been timed. */
+static void print_row(const struct solver_scene *scene, const struct solver_facts *facts, const char *stencil,
+                      const char *evolved, double seconds)
+{
+    double particles = (double)facts->particles;
+    double neighbours = (double)facts->pairs / particles;
+    double per_particle = seconds / particles;
+    double bandwidth = verify_bandwidth(facts->bytes_per_particle * particles, facts->threads);
+    double peak = verify_roof_flops(facts->threads);
+    double share = verify_roof_share(facts->step_flops, facts->step_traffic, per_particle, peak, bandwidth);
+    char flops[16] = "-";
+    if (facts->step_flops > 0.0) {
+        (void)snprintf(flops, sizeof flops, "%.0f", facts->step_flops);
+    }
+    (void)printf("%-8s %-6s %10zu %10.1f %7d %10.3g %10.1f %10.2f %8.0f %8.0f %8s %10.1f %10.1f %8.0f %%\n",
+                 stencil != NULL ? stencil : "-", evolved != NULL ? evolved : "-", facts->particles, neighbours,
+                 facts->threads, facts->setup_seconds / (100.0 * seconds), 1e9 * per_particle,
+                 1e9 * per_particle / (neighbours * solver_integrator_find(scene->integrator)->stages),
+                 facts->bytes_per_particle, facts->step_traffic, flops, 1e-9 * bandwidth, 1e-9 * peak, 100.0 * share);
+    (void)fflush(stdout);
+}
+
+/* `stencil` and `evolved` are NULL where the scheme has none. n = 0: the scene's own. */
+static bool row(const struct verify_options *options, int n, const char *stencil, const char *evolved,
                 struct solver_error *error)
 {
     struct verify_options with = *options;
@@ -28,21 +53,11 @@ static bool row(const struct verify_options *options, const char *stencil, const
     struct solver_scene *scene = NULL;
     struct solver_run *run = NULL;
     double seconds;
-    bool done = verify_scene_open(&with, 0, &scene, error) && verify_run_create(scene, &run, error) &&
+    bool done = verify_scene_open(&with, n, &scene, error) && verify_run_create(scene, &run, error) &&
                 verify_time_steps(run, &seconds, error);
     if (done) {
         struct solver_facts facts = solver_run_facts(run);
-        double particles = (double)facts.particles;
-        double neighbours = (double)facts.pairs / particles;
-        double per_particle = 1e9 * seconds / particles;
-        double bandwidth = verify_bandwidth(facts.bytes_per_particle * particles, facts.threads);
-        double limit = bandwidth > 0.0 ? 1e9 * facts.step_traffic / bandwidth : NAN;
-        (void)printf("%-8s %-6s %10zu %10.1f %8.1f %10.1f %10.2f %8.0f %8.0f %10.1f %8.0f %%\n",
-                     stencil != NULL ? stencil : "-", evolved != NULL ? evolved : "-", facts.particles, neighbours,
-                     facts.setup_seconds, per_particle,
-                     per_particle / (neighbours * solver_integrator_find(scene->integrator)->stages),
-                     facts.bytes_per_particle, facts.step_traffic, 1e-9 * bandwidth, 100.0 * limit / per_particle);
-        (void)fflush(stdout);
+        print_row(scene, &facts, stencil, evolved, seconds);
     }
     solver_run_free(run);
     solver_scene_free(scene);
@@ -50,7 +65,7 @@ static bool row(const struct verify_options *options, const char *stencil, const
 }
 
 /* A row for each stencil and evolved set, as far as the command line leaves them open. */
-static bool rows(const struct verify_options *options, struct solver_error *error)
+static bool rows(const struct verify_options *options, int n, struct solver_error *error)
 {
     static const char *const evolved[] = {"pF", "pFJ", "pFHJ"};
     for (const struct solver_stencil_builder *builder = solver_stencil_builders(); builder->name != NULL; builder++) {
@@ -59,12 +74,33 @@ static bool rows(const struct verify_options *options, struct solver_error *erro
             const char *only_evolved = verify_said(options, "evolved");
             bool wanted = (only_stencil == NULL || strcmp(only_stencil, builder->name) == 0) &&
                           (only_evolved == NULL || strcmp(only_evolved, evolved[i]) == 0);
-            if (wanted && !row(options, builder->name, evolved[i], error)) {
+            if (wanted && !row(options, n, builder->name, evolved[i], error)) {
                 return false;
             }
         }
     }
     return true;
+}
+
+static void print_head(void)
+{
+    (void)printf("path %s: vectors of %d doubles\n\n", solver_path_name(solver_path()), solver_peak()->lanes);
+    (void)printf("%-8s %-6s %10s %10s %7s %10s %10s %10s %8s %8s %8s %10s %10s %10s\n", "stencil", "set", "particles",
+                 "neighbours", "threads", "set-up/100", "ns/p-step", "ns/nb-rhs", "B/part.", "B moved", "flops",
+                 "triad GB/s", "Gflop/s", "of roof");
+}
+
+static void print_foot(void)
+{
+    (void)printf(
+        "\nset-up/100: time to build cloud and stencil over that of 100 steps. ns/p-step: one particle's step, best "
+        "of\n"
+        "%d samples. ns/nb-rhs: the same per neighbour and right-hand side. B/part.: memory per particle. B moved: "
+        "what\n"
+        "a particle's step moves if every array streams once per pass. flops: its floating-point operations, padding\n"
+        "left out. triad: bandwidth measured on arrays as large as the run's; Gflop/s: multiply-adds alone. of roof:\n"
+        "the time which the slower of traffic and operations takes at these rates, over the time measured.\n",
+        VERIFY_SAMPLES);
 }
 
 int verify_command_bench(const struct verify_options *options)
@@ -76,16 +112,14 @@ int verify_command_bench(const struct verify_options *options)
     }
     bool stencil = verify_has_stencil(scene);
     solver_scene_free(scene);
-    (void)printf("%-8s %-6s %10s %10s %8s %10s %10s %8s %8s %10s %10s\n", "stencil", "set", "particles", "neighbours",
-                 "set-up s", "ns/p-step", "ns/nb-rhs", "B/part.", "B moved", "triad GB/s", "of limit");
-    if (stencil ? !rows(options, &error) : !row(options, NULL, NULL, &error)) {
-        return verify_complain(&error);
+    print_head();
+    size_t sizes = options->level_count > 0 ? options->level_count : 1;
+    for (size_t i = 0; i < sizes; i++) {
+        int n = options->level_count > 0 ? options->level[i] : 0;
+        if (stencil ? !rows(options, n, &error) : !row(options, n, NULL, NULL, &error)) {
+            return verify_complain(&error);
+        }
     }
-    (void)printf(
-        "\nns/p-step: one particle's step, best of %d samples. ns/nb-rhs: the same per neighbour and right-hand side.\n"
-        "B/part.: memory per particle. B moved: what a step moves if every array streams once per pass.\n"
-        "of limit: the time which that traffic takes at the triad bandwidth measured on arrays as large as the\n"
-        "run's, over the time measured. Well under 100 %%: arithmetic limits, not memory.\n",
-        VERIFY_SAMPLES);
+    print_foot();
     return VERIFY_PASSED;
 }

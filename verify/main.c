@@ -6,6 +6,8 @@
 #include "verify/suggest.h"
 #include "verify/trap.h"
 
+#include "solver/path.h"
+
 #include <stdio.h>
 #include <string.h>
 
@@ -112,14 +114,17 @@ static const struct verify_command commands[] = {
      .run = verify_command_compare},
     {.name = "bench",
      .operands = "SCENE",
-     .summary = "what a particle-step costs, beside what the machine's memory allows",
+     .summary = "what a particle-step costs, beside what the machine allows at best",
      .help =
          "Times steps of a scene for every stencil and evolved set, on one thread and with tvd-rk2 at CFL 0.3 unless\n"
-         "--set says otherwise, and measures the machine's memory bandwidth in the same run. A measurement, not a\n"
-         "test: it has no bound to fail.\n\n"
+         "--set says otherwise, for each of the levels, and measures the machine's memory bandwidth and arithmetic in\n"
+         "the same run: the roofline. A measurement, not a test: it has no bound to fail.\n\n"
+         "The loops are those for the widest instruction set that the processor knows; the environment variable\n"
+         "ASSAY_ISA=baseline, avx2 or avx512 asks for another.\n\n"
          "  assay bench swinging-cube\n"
+         "  assay bench swinging-cube --levels 9,24,49 --set stencil=sbp2\n"
          "  assay bench swinging-cube --set stencil=closed --set evolved=pF --set threads=2",
-     .takes = VERIFY_TAKES_SET,
+     .takes = VERIFY_TAKES_SET | VERIFY_TAKES_LEVELS,
      .least = 1,
      .most = 1,
      .run = verify_command_bench},
@@ -233,7 +238,7 @@ int main(int argc, char **argv)
         return VERIFY_PASSED;
     }
     if (strcmp(word, "--version") == 0) {
-        (void)printf("assay %s\n", verify_version());
+        (void)printf("assay %s\nloops for %s\n", verify_version(), solver_path_name(solver_path()));
         return VERIFY_PASSED;
     }
     if (strcmp(word, "--manual") == 0) {

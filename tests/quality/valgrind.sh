@@ -34,6 +34,7 @@ declare -A only=(
   [test_solver_run_angular]="forces have no resultant"       # others: a thousand steps, many times
   [test_solver_checkpoint]="every evolved set"               # others: more of the same, for tens of steps
   [test_solver_pressure]="what it took is reported"          # others: thousands of iterations, many times
+  [test_solver_precision]="bytes"                           # others: runs of fifty steps
   [test_solver_wall]="oblique wall"                          # others: every integrator in every dimension
   [test_verify_manufactured]="body force"                    # others: the self-checks of all kinds, by quadrature
   [test_solver_rotation]="cells and their stress through a turn, 2D"     # others: more of the same

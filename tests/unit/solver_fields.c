@@ -58,8 +58,8 @@ static void upwind_phase(const struct machine *machine, int phase)
 
 static void ulsph_phase(const struct machine *machine, int phase)
 {
-    const struct solver_ulsph_loops *const loops[] = {&solver_ulsph_1d, &solver_ulsph_2d, &solver_ulsph_3d};
-    const struct solver_ulsph_loops *of = loops[machine->sample.scene->dim - 1];
+    static const struct solver_ulsph_loops *const loops[][3] = SOLVER_LOOPS(solver_ulsph);
+    const struct solver_ulsph_loops *of = loops[solver_path()][machine->sample.scene->dim - 1];
     if (phase == GATHER) {
         of->geometry(machine->ulsph, 0, machine->count);
     } else if (phase == GRADIENTS) {
