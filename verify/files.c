@@ -3,10 +3,12 @@
 #include "solver/file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static bool failed(struct solver_error *error, const char *verb, const char *path, int number)
 {
@@ -34,12 +36,15 @@ static bool read_stream(FILE *file, const char *path, size_t size, char *bytes, 
 
 bool verify_file_read(const char *path, char **bytes, size_t *size, struct solver_error *error)
 {
-    FILE *file = fopen(path, "rbe");
     struct stat status;
-    if (file == NULL || fstat(fileno(file), &status) != 0) {
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe without a writer must not hang us */
+    FILE *file = fd < 0 ? NULL : fdopen(fd, "rb");
+    if (file == NULL || fstat(fd, &status) != 0) {
         int number = errno;
         if (file != NULL) {
             (void)fclose(file);
+        } else if (fd >= 0) {
+            (void)close(fd);
         }
         return failed(error, "read", path, number);
     }
