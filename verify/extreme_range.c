@@ -176,6 +176,9 @@ bool verify_extreme_impact(const struct verify_extremes *in, struct solver_error
         (void)snprintf(row.what, sizeof row.what, "%s", bodies[i].what);
         verify_extreme_bisect(survives_at, &driven, 0.01, 10.0, 0.05, &row.value, &row.fails, row.note,
                               sizeof row.note);
+        if (isnan(row.fails)) {
+            (void)snprintf(row.note, sizeof row.note, "as far as it was driven");
+        }
         verify_extreme_told(in, &row);
     }
     return true;
