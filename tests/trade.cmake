@@ -53,6 +53,8 @@ trade_refuses(of-no-oracle "answers to no oracle" trade rotating-plate)
 trade_refuses(vary-what-is-no-method "--vary material.E: no key that says how a problem is solved" trade plastic-wave
               --vary material.E=1,2)
 trade_refuses(vary-suggests "did you mean stencil?" trade plastic-wave --vary stencl=sbp2)
+trade_refuses(vary-no-number "--vary cfl=abc: expected a number" trade plastic-wave --vary cfl=0.3,abc)
+trade_refuses(vary-no-such-word "did you mean sbp" trade plastic-wave --vary stencil=sbp2,sbp3)
 trade_refuses(vary-what-is-set "--set fixes this key" trade plastic-wave --vary cfl=0.3 --set cfl=0.8)
 trade_refuses(vary-twice "given twice" trade plastic-wave --vary cfl=0.3 --vary cfl=0.8)
 trade_refuses(vary-nothing "expected up to 16 values" trade plastic-wave --vary cfl=0.3,,0.8)
