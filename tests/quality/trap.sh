@@ -11,8 +11,8 @@ scenes=("verify swinging-cube --levels 8,12" "verify swinging-cube --levels 8 --
   "verify bimaterial-wave --levels 100,200" "verify taylor-bar --levels 1" "verify plastic-cube"
   "verify rings --levels 5 --set t_end=2e-4" "verify rod-impact --levels 50" "verify breathing-cylinder --levels 8"
   "verify spinning-body --levels 2" "verify elastic-cable --levels 50 --set scheme=ulsph"
-  "verify twisting-column --levels 6 --set t_end=0.01" "run incompressible-column --set n=4 --set t_end=1e-3"
-  "extremes poisson")
+  "verify twisting-column --levels 6 --set t_end=0.01"
+  "run incompressible-column --set n=4 --set t_end=1e-3")
 
 cd -- "$1"
 out=$(mktemp -d)
