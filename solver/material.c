@@ -65,8 +65,8 @@ struct solver_material_constants solver_material_constants(double E, double nu, 
     struct solver_material_constants material = {
         .rho = rho,
         .mu = E / (2.0 * (1.0 + nu)),
-        .lambda = E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
-        .kappa = E / (3.0 * (1.0 - 2.0 * nu)),
+        .lambda = nu < 0.5 ? E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)) : INFINITY,
+        .kappa = nu < 0.5 ? E / (3.0 * (1.0 - 2.0 * nu)) : INFINITY,
     };
     material.cp = sqrt((material.kappa + 4.0 / 3.0 * material.mu) / rho);
     material.cs = sqrt(material.mu / rho);

@@ -316,8 +316,9 @@ bool solver_run_to(struct solver_run *run, double t_end, solver_progress *progre
         bool last = steps <= 1.0;
         if (!isfinite(steps) || steps > 1e12) {
             return solver_fail(error, SOLVER_BROKE_DOWN,
-                               "step %zu, t = %.6g s: the time step %.3g s is too small to "
-                               "reach t_end = %g s",
+                               "step %zu, t = %.6g s: the time step %.3g s is too small to reach t_end = %g s, which "
+                               "would take more than 1e12 of them; take a larger cfl, a coarser n, a softer material "
+                               "or a smaller t_end",
                                run->step, run->time, largest_step(run), t_end);
         }
         ok = step(run, last ? remaining : remaining / steps, error);

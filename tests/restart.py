@@ -167,6 +167,21 @@ def twice(place):
     check_whole(checkpoint)
 
 
+def burst(place):
+    """One signal that comes twice, as from timeout(1), is one wish: the run is kept."""
+    place.scene(ENDLESS)
+    for name in ("a", "b", "c"):
+        process = place.start(name, [*RUN, "--checkpoint", "1h"])
+        wait_for(lambda started=process: watches(started), process)
+        process.send_signal(signal.SIGTERM)
+        time.sleep(2e-4)
+        process.send_signal(signal.SIGTERM)
+        out, err = process.communicate()
+        if process.returncode != -signal.SIGTERM or not (place.at(name) / CHECKPOINT).exists():
+            sys.exit(f"FAIL: exit code {process.returncode}, nothing is kept: {out}{err}")
+        check_whole(place.at(name) / CHECKPOINT)
+
+
 def unasked(place):
     """Without --checkpoint a run is kept when it has gone on for five seconds, and not before."""
     place.scene(ENDLESS)
@@ -245,7 +260,7 @@ def study(place):
         sys.exit(f"FAIL: there is {os.listdir(place.at('study') / 'out')}")
 
 
-TESTS = {test.__name__: test for test in (killed, stopped, twice, unasked, full, refused, study)}
+TESTS = {test.__name__: test for test in (killed, stopped, twice, burst, unasked, full, refused, study)}
 
 if __name__ == "__main__":
     TESTS[sys.argv[1]](Place(sys.argv[2], sys.argv[3]))

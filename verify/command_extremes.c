@@ -1,16 +1,18 @@
 /* assay extremes: a map of where schemes work, measured row by row. */
 #include "verify/commands.h"
 #include "verify/extremes.h"
+#include "verify/files.h"
 #include "verify/json.h"
 #include "verify/suggest.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* What came of all rows so far. */
 struct tally {
-    FILE *json; /* NULL: none is wanted */
+    FILE *json; /* in memory; NULL: none is wanted */
     size_t rows, judged, failed;
 };
 
@@ -92,35 +94,78 @@ static bool run(const struct verify_extreme *extreme, struct verify_extremes *in
     return extreme->run(in, error);
 }
 
+/* What the command line adds to every run, without which rows would say more than they measure. */
+static void write_overrides(FILE *file, const struct verify_options *options)
+{
+    (void)fputs("{\"set\": [", file);
+    for (size_t i = 0; i < options->override_count; i++) {
+        (void)fputs(i > 0 ? ", " : "", file);
+        verify_json_string(file, options->override[i]);
+    }
+    (void)fputs("], \"rows\": [", file);
+}
+
+static bool wanted(const struct verify_extreme *extreme, const char *word)
+{
+    return word == NULL || strcmp(word, extreme->name) == 0;
+}
+
+static bool run_all(const struct verify_options *options, const char *word, struct tally *tally,
+                    struct solver_error *error)
+{
+    struct verify_extremes in = {.options = options, .take = take, .context = tally};
+    bool done = true;
+    for (const struct verify_extreme *extreme = verify_extremes_table(); done && extreme->name != NULL; extreme++) {
+        done = !wanted(extreme, word) || verify_extreme_check(extreme, options, error);
+    }
+    for (size_t i = 0; done && i < options->override_count; i++) {
+        (void)printf("%s%s%s", i == 0 ? "in every run: " : ", ", options->override[i],
+                     i + 1 == options->override_count ? "\n" : "");
+    }
+    for (const struct verify_extreme *extreme = verify_extremes_table(); done && extreme->name != NULL; extreme++) {
+        done = !wanted(extreme, word) || run(extreme, &in, error);
+    }
+    return done;
+}
+
+/* The rows, and as JSON at `path` unless that is NULL; whole or not at all. */
+static bool tell(const struct verify_options *options, const char *word, struct tally *tally,
+                 struct solver_error *error)
+{
+    char *text = NULL;
+    size_t size = 0;
+    if (options->json == NULL) {
+        return run_all(options, word, tally, error);
+    }
+    if (!verify_file_check(options->json, error)) {
+        return false;
+    }
+    tally->json = open_memstream(&text, &size);
+    if (tally->json == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for the report", options->json);
+    }
+    write_overrides(tally->json, options);
+    bool done = run_all(options, word, tally, error);
+    (void)fprintf(tally->json, "\n], \"pass\": %s}\n", tally->failed == 0 ? "true" : "false");
+    bool whole = ferror(tally->json) == 0;
+    whole = fclose(tally->json) == 0 && whole;
+    if (done && !whole) {
+        done = solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for the report", options->json);
+    }
+    done = done && verify_file_write(options->json, text, size, error);
+    free(text);
+    return done;
+}
+
 int verify_command_extremes(const struct verify_options *options)
 {
     struct solver_error error = {.code = SOLVER_OK};
     struct tally tally = {.json = NULL};
-    struct verify_extremes in = {.options = options, .take = take, .context = &tally};
     const char *word = options->operand_count > 0 ? options->operand[0] : NULL;
     if (word != NULL && verify_extreme_find(word) == NULL) {
         return refuse(word);
     }
-    if (options->json != NULL && (tally.json = fopen(options->json, "w")) == NULL) {
-        (void)solver_fail(&error, SOLVER_IO, "%s: cannot be written", options->json);
-        return verify_complain(&error);
-    }
-    if (tally.json != NULL) {
-        (void)fprintf(tally.json, "{\"rows\": [");
-    }
-    bool done = true;
-    for (const struct verify_extreme *extreme = verify_extremes_table(); done && extreme->name != NULL; extreme++) {
-        if (word == NULL || strcmp(word, extreme->name) == 0) {
-            done = run(extreme, &in, &error);
-        }
-    }
-    if (tally.json != NULL) {
-        (void)fprintf(tally.json, "\n], \"pass\": %s}\n", done && tally.failed == 0 ? "true" : "false");
-        if (fclose(tally.json) != 0 && done) {
-            done = solver_fail(&error, SOLVER_IO, "%s: cannot be written", options->json);
-        }
-    }
-    if (!done) {
+    if (!tell(options, word, &tally, &error)) {
         return verify_complain(&error);
     }
     (void)printf("\n%zu rows, %zu with bounds, %zu of these fail\n", tally.rows, tally.judged, tally.failed);

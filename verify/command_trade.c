@@ -250,6 +250,16 @@ static bool write_files(const struct work *work, struct solver_error *error)
     return options->json == NULL || verify_report_write(options->json, write_json, work, error);
 }
 
+/* Before anything is measured that would be lost. */
+static bool check_files(const struct work *work, struct solver_error *error)
+{
+    const struct verify_options *options = work->trader.options;
+    char folder[VERIFY_PATH], path[VERIFY_PATH];
+    return verify_out_folder(options, work->scene->name, folder, error) &&
+           verify_path_join(path, folder, "trade", ".tsv", error) && verify_file_check(path, error) &&
+           (options->json == NULL || verify_file_check(options->json, error));
+}
+
 static bool study(struct work *work, struct solver_error *error)
 {
     const struct verify_options *options = work->trader.options;
@@ -267,7 +277,8 @@ static bool study(struct work *work, struct solver_error *error)
                            work->scene->path);
     }
     if (!verify_figures_check(work->scene, truth, error) || !choose_errors(work, error) ||
-        !verify_trade_axes(options, work->scene, trade, error) || !verify_trade_plan(work->scene, trade, error)) {
+        !verify_trade_axes(options, work->scene, trade, error) || !verify_trade_plan(work->scene, trade, error) ||
+        !check_files(work, error)) {
         return false;
     }
     size_t chosen = verify_error_find(trade->error_name[trade->chosen]); /* figures have relative errors */

@@ -31,11 +31,16 @@ struct verify_extremes {
 struct verify_extreme {
     const char *name, *summary;
     bool (*run)(const struct verify_extremes *in, struct solver_error *error);
+    const char *scene, *drives; /* what it runs, and the keys that it sets itself, with blanks between */
 };
 
 /* The table, ends with a NULL name. */
 const struct verify_extreme *verify_extremes_table(void);
 const struct verify_extreme *verify_extreme_find(const char *name);
+/* Refuses overrides of the command line that the extreme's scene does not take, and those of keys that it drives: what
+ * it says of its rows would not be true. SOLVER_BAD_INPUT. */
+bool verify_extreme_check(const struct verify_extreme *extreme, const struct verify_options *options,
+                          struct solver_error *error);
 
 /* Whether the value lies within its bounds; what is only told passes unless it is NaN. */
 bool verify_extreme_holds(const struct verify_extreme_row *row);

@@ -3,23 +3,41 @@
 #include "solver/file.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 static bool failed(struct solver_error *error, const char *verb, const char *path, int number)
 {
     return solver_fail(error, SOLVER_IO, "%s: cannot %s: %s", path, verb, strerror(number));
 }
 
-bool verify_file_write(const char *path, const void *bytes, size_t size, struct solver_error *error)
+/* A folder, a device or a link in place of the file is not replaced. */
+static bool check_plain(const char *path, struct solver_error *error)
 {
     struct stat status;
-    if (lstat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        return solver_fail(error, SOLVER_IO, "%s: is not a plain file; name another file to write to", path);
+    return lstat(path, &status) != 0 || S_ISREG(status.st_mode) ||
+           solver_fail(error, SOLVER_IO, "%s: is not a plain file; name another file to write to", path);
+}
+
+bool verify_file_check(const char *path, struct solver_error *error)
+{
+    char folder[VERIFY_PATH];
+    const char *slash = strrchr(path, '/');
+    int length = slash == NULL ? 1 : slash == path ? 1 : (int)(slash - path);
+    if (length >= VERIFY_PATH) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "the path is too long: %.200s...", path);
     }
-    return solver_file_replace(path, bytes, size, error);
+    (void)snprintf(folder, sizeof folder, "%.*s", length, slash == NULL ? "." : path);
+    return check_plain(path, error) && (access(folder, W_OK | X_OK) == 0 || failed(error, "write", path, errno));
+}
+
+bool verify_file_write(const char *path, const void *bytes, size_t size, struct solver_error *error)
+{
+    return check_plain(path, error) && solver_file_replace(path, bytes, size, error);
 }
 
 static bool read_stream(FILE *file, const char *path, size_t size, char *bytes, struct solver_error *error)
@@ -34,12 +52,15 @@ static bool read_stream(FILE *file, const char *path, size_t size, char *bytes, 
 
 bool verify_file_read(const char *path, char **bytes, size_t *size, struct solver_error *error)
 {
-    FILE *file = fopen(path, "rbe");
     struct stat status;
-    if (file == NULL || fstat(fileno(file), &status) != 0) {
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe without a writer must not hang us */
+    FILE *file = fd < 0 ? NULL : fdopen(fd, "rb");
+    if (file == NULL || fstat(fd, &status) != 0) {
         int number = errno;
         if (file != NULL) {
             (void)fclose(file);
+        } else if (fd >= 0) {
+            (void)close(fd);
         }
         return failed(error, "read", path, number);
     }

@@ -11,6 +11,9 @@ enum { VERIFY_PATH = 4096 };
 /* Writes `size` bytes beside `path`, flushes them to the disk and renames. Refuses to replace what is not a plain
  * file (a folder, a device, a link). */
 bool verify_file_write(const char *path, const void *bytes, size_t size, struct solver_error *error);
+/* Whether that is to be expected to work, before anything is computed that would be lost: no such thing in the way, and
+ * a folder that takes files. */
+bool verify_file_check(const char *path, struct solver_error *error);
 /* Reads a whole file; the caller frees. A NUL byte follows the last one. Refuses files of more than 1 GiB. */
 bool verify_file_read(const char *path, char **bytes, size_t *size, struct solver_error *error);
 /* Makes a folder and those above it, where they are missing. */

@@ -135,7 +135,7 @@ static const struct verify_command commands[] = {
          "Drives one quantity after the other until runs no longer hold, most by bisection, and prints the last\n"
          "value that holds beside the nearest that fails, what is to be expected, and why it fails. NAME is one of\n"
          "cfl, scale, place, alternating, spin, vibration, poisson, stretch, perturbed, impact, contrast, small;\n"
-         "without it all are measured. --set goes to every run.\n\n"
+         "without it all are measured. --set goes to every run; keys that the rows set themselves are refused.\n\n"
          "  assay extremes scale\n"
          "  assay extremes cfl --json cfl.json\n\n"
          "Exit code: 0 all bounds hold; 1 one does not; 2 a word or a file is wrong; 3 a run that had to end broke\n"

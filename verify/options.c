@@ -104,7 +104,9 @@ static bool unknown(const struct verify_command *command, const char *word, stru
 static bool read_levels(const struct verify_command *command, const char *text, struct verify_options *options,
                         struct solver_error *error)
 {
-    options->level_count = 0;
+    if (options->level_count > 0) {
+        return bad(error, command, "--levels", "given twice");
+    }
     for (const char *c = text;; c++) {
         char *end = (char *)c;
         errno = 0;
@@ -150,6 +152,9 @@ static bool read_budget(const struct verify_command *command, const char *text, 
                         struct solver_error *error)
 {
     char *end = (char *)text;
+    if (options->budget > 0) {
+        return bad(error, command, "--budget", "given twice");
+    }
     options->budget = strtod(text, &end);
     return (end != text && *end == '\0' && options->budget > 0 && options->budget <= 1e7) ||
            bad(error, command, text, "--budget wants a number of seconds above 0, as in 60");
@@ -160,6 +165,9 @@ static bool read_tolerance(const struct verify_command *command, const char *tex
                            struct solver_error *error)
 {
     char *end = (char *)text;
+    if (options->has_tolerance) {
+        return bad(error, command, "--tolerance", "given twice");
+    }
     for (int i = 0; i < 2; i++) {
         const char *from = i == 0 ? text : end + 1;
         options->tolerance[i] = strtod(from, &end);

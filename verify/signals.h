@@ -1,7 +1,7 @@
 /* Signals that ask the program to end while a run is under way: SIGINT (Ctrl-C), SIGTERM and SIGHUP. The first is
- * noted, so that the run can stop after its step and be kept; the second ends the program at once, as every one does
- * while nothing is watched: files are whole or absent whenever that is. A signal that was ignored when the program
- * started, as under nohup, stays so. */
+ * noted, so that the run can stop after its step and be kept; another ends the program at once, as every one does while
+ * nothing is watched: files are whole or absent whenever that is. The same one within a fifth of a second is no other:
+ * timeout(1) sends its own twice. A signal that was ignored when the program started, as under nohup, stays so. */
 #ifndef VERIFY_SIGNALS_H
 #define VERIFY_SIGNALS_H
 

@@ -3,7 +3,9 @@
 #include "verify/suggest.h"
 #include "verify/trade.h"
 
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* What is varied unless the command line says otherwise; NULL: every word that the key can have. */
@@ -37,6 +39,30 @@ static bool add_value(struct verify_trade_axis *axis, const char *value, size_t 
     }
     (void)snprintf(axis->value[axis->count++], SOLVER_NAME, "%.*s", (int)length, value);
     return true;
+}
+
+/* A slip of the hand would else be told when the budget is spent: the word is one that the key can have, or a number
+ * where it takes no words. */
+static bool check_value(const char *key, const char *value, struct solver_error *error)
+{
+    char word[VERIFY_TRADE_VALUES][SOLVER_NAME], list[512] = "", *end = NULL;
+    const char *names[VERIFY_TRADE_VALUES];
+    size_t count = solver_scene_words(key, word, VERIFY_TRADE_VALUES), used = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(word[i], value) == 0) {
+            return true;
+        }
+        names[i] = word[i];
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", i > 0 ? ", " : "", word[i]);
+    }
+    if (count == 0) {
+        double number = strtod(value, &end);
+        return (end != value && *end == '\0' && isfinite(number)) ||
+               solver_fail(error, SOLVER_BAD_INPUT, "--vary %s=%s: expected a number", key, value);
+    }
+    const char *meant = verify_suggest(value, names, count);
+    return solver_fail(error, SOLVER_BAD_INPUT, "--vary %s=%s: expected one of %s%s%s%s", key, value, list,
+                       meant != NULL ? "; did you mean " : "", meant != NULL ? meant : "", meant != NULL ? "?" : "");
 }
 
 static bool add_values(struct verify_trade_axis *axis, const char *values, struct solver_error *error)
@@ -105,7 +131,15 @@ static bool add_asked(const struct verify_options *options, const char *text, st
     if (is_set(options, axis->key)) {
         return solver_fail(error, SOLVER_BAD_INPUT, "--vary %s: --set fixes this key", axis->key);
     }
-    return add_values(axis, text + length + 1, error);
+    if (!add_values(axis, text + length + 1, error)) {
+        return false;
+    }
+    for (size_t i = 0; i < axis->count; i++) {
+        if (!check_value(axis->key, axis->value[i], error)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static bool has_axis(const struct verify_trade *trade, const char *key)

@@ -4,13 +4,15 @@
 set -euo pipefail
 # All that computes; programs that hand over infinities and NaN to see them refused are not among these.
 programs=(schemes run run_composite run_faces run_fluxes run_bodies run_start run_denormal jst material material_loops flow hardening
-  integrator kernel stencil ulsph_diffusion ulsph_forces ulsph_gradients ulsph_pairs wall cost)
+  integrator kernel stencil ulsph_diffusion ulsph_forces ulsph_gradients ulsph_pairs wall cost
+  pressure symmetry balance checkpoint)
 # Each exercises what the others do not. At such spacings gates need not hold: an exit code of 1 is no trap.
 scenes=("verify swinging-cube --levels 8,12" "verify swinging-cube --levels 8 --set scheme=jst"
   "verify bimaterial-wave --levels 100,200" "verify taylor-bar --levels 1" "verify plastic-cube"
   "verify rings --levels 5 --set t_end=2e-4" "verify rod-impact --levels 50" "verify breathing-cylinder --levels 8"
   "verify spinning-body --levels 2" "verify elastic-cable --levels 50 --set scheme=ulsph"
-  "verify twisting-column --levels 6 --set t_end=0.01")
+  "verify twisting-column --levels 6 --set t_end=0.01"
+  "run incompressible-column --set n=4 --set t_end=1e-3")
 
 cd -- "$1"
 out=$(mktemp -d)

@@ -1,6 +1,8 @@
 /* One conformance suite for every material in 1, 2 and 3 dimensions: energy, stress and tangent. */
 #include "tests/unit/materials.h"
 
+#include <fenv.h>
+
 /* Central differences of sixth order over this step: truncation and round-off are both near 1e-13. */
 static const double step = 4e-3;
 static const double at[] = {-3, -2, -1, 1, 2, 3};
@@ -283,11 +285,23 @@ static void test_table(void)
     CU_ASSERT_PTR_NULL(solver_material_find(""));
 }
 
+/* At nu = 0.5 nothing is divided by zero on the way to moduli that are infinite. */
+static void test_incompressible(void)
+{
+    (void)feclearexcept(FE_ALL_EXCEPT);
+    struct solver_material_constants constants = solver_material_constants(17e6, 0.5, 1100);
+    CU_ASSERT_EQUAL(fetestexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW), 0);
+    CU_ASSERT(isinf(constants.kappa) && isinf(constants.lambda) && isinf(constants.cp));
+    CU_ASSERT_DOUBLE_EQUAL(constants.mu, 17e6 / 3.0, 1e-9);
+    CU_ASSERT_DOUBLE_EQUAL(constants.cs, sqrt(17e6 / 3.0 / 1100), 1e-9);
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
         {"the table finds its members", test_table},
         {"constants fit each other", test_constants},
+        {"incompressible", test_incompressible},
         {"stress is the slope of the energy", test_stress},
         {"tangent is the slope of the stress, and symmetric", test_tangent},
         {"at rest: no energy, no stress, Hooke's tangent", test_rest},

@@ -209,6 +209,22 @@ static void test_formula_fails_within_a_step(void)
     }
 }
 
+/* A time step that has collapsed, and an end that no number of steps reaches, are said at once. */
+static void test_steps_collapse(void)
+{
+    static const char *const settings[] = {"dim=2 cfl=1e-300", "dim=2 t_end=1e300", "dim=1 cfl=1e-14"};
+    for (size_t i = 0; i < 3; i++) {
+        struct sample sample = start("", "%s", settings[i]);
+        CU_ASSERT_FALSE(solver_run_to(sample.run, sample.scene->t_end, NULL, NULL, &sample.error));
+        CU_ASSERT_EQUAL(sample.error.code, SOLVER_BROKE_DOWN);
+        CU_ASSERT_PTR_NOT_NULL(strstr(sample.error.text, "is too small to reach t_end"));
+        CU_ASSERT_PTR_NOT_NULL(strstr(sample.error.text, "take a larger cfl"));
+        CU_ASSERT_EQUAL(output_of(&sample).step, 0);
+        check_output(&sample);
+        finish(&sample);
+    }
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -216,6 +232,7 @@ int main(void)
         {"unstable until not finite", test_unstable},
         {"neighbours that move", test_moving_neighbours},
         {"on the way to t_end", test_run_to},
+        {"a time step that has collapsed", test_steps_collapse},
         {"the broken field is the one named", test_field_is_named},
         {"a formula that fails on the way", test_formula_fails},
         {"a formula that fails within a step leaves the step before", test_formula_fails_within_a_step},

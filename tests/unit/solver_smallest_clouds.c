@@ -88,8 +88,65 @@ static void handfuls_are_right_or_refused(void)
     }
 }
 
+/* Lines of a grid whose spacings grow from 1 to RATIO. */
+enum { LINES = 13, RATIO = 10 };
+
+static void graded(int dim, double *X, double *V, uint32_t *tags, size_t *count)
+{
+    double line[LINES] = {0.0};
+    for (int i = 1; i < LINES; i++) {
+        line[i] = line[i - 1] + pow(RATIO, (i - 1.0) / (LINES - 2.0));
+    }
+    *count = 1;
+    for (int i = 0; i < dim; i++) {
+        *count *= LINES;
+    }
+    for (size_t a = 0; a < *count; a++) {
+        size_t rest = a;
+        V[a] = 1.0;
+        tags[a] = 0;
+        for (int i = 0; i < dim; i++, rest /= LINES) {
+            size_t at = rest % LINES;
+            X[a * (size_t)dim + (size_t)i] = line[at];
+            V[a] *= 0.5 * (line[at + 1 < LINES ? at + 1 : at] - line[at > 0 ? at - 1 : 0]);
+        }
+    }
+}
+
+/* Spacings that differ ten times within one body: with a radius that reaches neighbours at the coarse end linear fields
+ * are differentiated there too, but for 3D, where more neighbours are then at the fine end than a particle may have;
+ * with a smaller one, and by stencils that close over faces, they are refused. */
+static void spacings_that_differ(void)
+{
+    static double X[LINES * LINES * LINES * 3], V[LINES * LINES * LINES];
+    static uint32_t tags[LINES * LINES * LINES];
+    static const double radius[] = {1.5, 0.5 * RATIO, 2.0 * RATIO};
+    for (int dim = 1; dim <= 3; dim++) {
+        size_t count = 0;
+        graded(dim, X, V, tags, &count);
+        struct solver_cloud cloud = {.dim = dim, .count = count, .spacing = 1.0, .X = X, .V = V, .tags = tags};
+        for (const struct solver_stencil_builder *builder = solver_stencil_builders(); builder->name != NULL;
+             builder++) {
+            bool whole = strcmp(builder->name, "sph") == 0;
+            for (size_t r = 0; r < sizeof radius / sizeof *radius; r++) {
+                struct solver_stencil *stencil = NULL;
+                struct solver_error error = {.code = SOLVER_OK};
+                bool built = solver_stencil_create(builder, &cloud, radius[r], &stencil, &error);
+                CU_ASSERT_EQUAL(built, whole && r == 2 && dim < 3);
+                CU_ASSERT(built ? numbers(stencil) && solver_stencil_check(stencil, &cloud).linear < 1e-12
+                                : error.code != SOLVER_OK && error.text[0] != '\0');
+                CU_ASSERT(!whole || r == 2 || strstr(error.text, "choose a larger support") != NULL);
+                solver_stencil_free(stencil);
+            }
+        }
+    }
+}
+
 int main(void)
 {
-    static const struct unit_test tests[] = {{"handfuls are right or refused", handfuls_are_right_or_refused}};
-    return unit_main("smallest clouds", tests, 1);
+    static const struct unit_test tests[] = {
+        {"handfuls are right or refused", handfuls_are_right_or_refused},
+        {"spacings that differ", spacings_that_differ},
+    };
+    return unit_main("smallest clouds", tests, sizeof tests / sizeof *tests);
 }

@@ -85,6 +85,7 @@ static void wrong_words(void)
     refused(PARSE("cube", "--set", "=4"), "KEY=VALUE");
     refused(PARSE("cube", "--set", "n=4\nm=5"), "control character");
     refused(PARSE("cube", "--json", "a.json", "--json", "b.json"), "given twice");
+    refused(PARSE("cube", "--levels", "4,8", "--levels", "8"), "given twice");
     refused(PARSE("cube", "--json", "cube.lua"), "expected a name that ends in .json");
     refused(PARSE("cube", "--json", ".json"), "expected a name that ends in .json");
     refused(PARSE("cube", "--out", ""), "empty");

@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static char file[] = "/tmp/assay-study-XXXXXX";
@@ -159,12 +160,25 @@ static void hostile(void)
     }
 }
 
+/* Nobody writes to the pipe: a reader that waits for one waits for ever. */
+static void no_plain_file(void)
+{
+    unlink(file);
+    CU_ASSERT_EQUAL_FATAL(mkfifo(file, 0600), 0);
+    (void)alarm(10);
+    CU_ASSERT_FALSE(is_read());
+    (void)alarm(0);
+    CU_ASSERT_EQUAL(error.code, SOLVER_IO);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "is not a plain file"));
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
         {"written and read", round_trip},
         {"damage", damage},
         {"hostile files", hostile},
+        {"a pipe", no_plain_file},
     };
     int descriptor = mkstemp(file);
     if (descriptor < 0) {
