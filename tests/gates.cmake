@@ -253,7 +253,8 @@ set(early --set c=0.003 --set t_end=0.0025)
 assay_test(gate-stent LABELS gate COMMAND ${stent} ${early} --out gates/stent)
 assay_test(gate-stent-sees-checkerboard LABELS gate mustfail COMMAND ${fails} "FAIL: a gate does not hold"
   ${stent} ${early} --set evolved=pF --out gates/stent-pF)
-assay_test(gate-stent-whole LABELS gate slow COMMAND ${stent} --out gates/stent-whole)
+# No more than that it runs to the end.
+assay_test(stent-runs-through LABELS slow COMMAND ${stent} --out gates/stent-whole)
 foreach(load tensile punch)
   set(block $<TARGET_FILE:assay> verify perforated-block-${load})
   assay_test(gate-perforated-block-${load} LABELS gate COMMAND ${block} --set evolved=pFJ
@@ -302,6 +303,9 @@ assay_test(incompressible-column-says-what-to-do LABELS unit COMMAND sh ${CMAKE_
 set(incompressible --set material.nu=0.5 --set incompressible.solver=poisson)
 assay_test(gate-manufactured-incompressible LABELS gate mms COMMAND $<TARGET_FILE:assay> verify manufactured-isochoric
   ${incompressible} --out gates/manufactured-incompressible)
+assay_test(gate-manufactured-incompressible-sees-dissipation LABELS gate mms mustfail COMMAND ${fails}
+  "FAIL: a gate does not hold" $<TARGET_FILE:assay> verify manufactured-isochoric ${incompressible}
+  --set incompressible.dissipation=1 --set incompressible.restore=0 --out gates/manufactured-incompressible-dissipation)
 set(s_wave ${incompressible} --set incompressible.tolerance=1e-13 --set A=1 --set B=-1 --set C=0)
 assay_test(gate-swinging-cube-incompressible LABELS gate COMMAND $<TARGET_FILE:assay> verify swinging-cube ${s_wave}
   --set stencil=sbp2 ${rk2} --out gates/swinging-cube-incompressible)
@@ -339,6 +343,9 @@ assay_test(json-of-figures-alone LABELS gate COMMAND ${Python3_EXECUTABLE} -m js
   gates/constrained-block/report.json gates/constrained-block/read.json)
 set_tests_properties(gate-constrained-block PROPERTIES FIXTURES_SETUP constrained-block)
 set_tests_properties(json-of-figures-alone PROPERTIES FIXTURES_REQUIRED constrained-block)
+assay_test(gate-constrained-block-sees-strength LABELS gate mustfail COMMAND ${fails} "FAIL: a gate does not hold"
+  $<TARGET_FILE:assay> verify constrained-block --levels 10,20 --set material.yield_stress=0.41e9
+  --out gates/constrained-block-strength)
 assay_test(gate-constrained-block-fine LABELS gate slow COMMAND $<TARGET_FILE:assay> verify constrained-block
   --out gates/constrained-block-fine)
 assay_test(gate-ecae-first-turn LABELS gate COMMAND $<TARGET_FILE:assay> verify ecae --levels 3 --set t_end=10e-3

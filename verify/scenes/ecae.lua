@@ -62,6 +62,10 @@ figures = {
     ["ram loss"] = { measure = "ram loss", along = {2}, speed = -V },
 }
 
+if t_end < 11e-3 then -- it has not got there
+    figures["strain in section 1"], figures["strain in section 2"] = nil, nil
+end
+
 gates = {
     { when = { n = 3, t_end = 0.01, scheme = "jst", evolved = "pFHJ", support = 3 },
       ["figure plastic work"] = 0.2, ["figure largest strain"] = 0.16, ["figure ram loss"] = 0.06,
@@ -77,5 +81,6 @@ gates = {
 
 view = {
     field = "plastic_strain", range = {0, 2.4}, bands = 12, -- -
-    direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 1, size = {1000, 900},
+    frame = {0, far + W, -30e-3, outer + L, 0, 0}, -- m
+    direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 1, size = {700, 900},
 }

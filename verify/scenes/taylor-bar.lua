@@ -89,5 +89,6 @@ gates = {
 
 view = {
     field = "plastic_strain", range = {0, 1.6}, bands = 16, -- -
+    frame = { quarter == 1 and 0 or -7e-3, 7e-3, quarter == 1 and 0 or -7e-3, 7e-3, 0, 30e-3 }, -- m
     direction = {1, -0.8, 0.25}, up = {0, 0, 1}, magnify = 1, size = {700, 900},
 }
