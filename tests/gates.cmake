@@ -353,9 +353,11 @@ assay_test(gate-ecae-first-turn LABELS gate COMMAND $<TARGET_FILE:assay> verify 
 assay_test(gate-ecae LABELS gate slow COMMAND $<TARGET_FILE:assay> verify ecae --out gates/ecae)
 assay_test(gate-ecae-short LABELS gate slow COMMAND $<TARGET_FILE:assay> verify ecae --levels 5 --set middle=16e-3
   --out gates/ecae-short)
-assay_test(gate-ecae-sees-strength LABELS gate mustfail COMMAND ${fails} "FAIL: a gate does not hold"
-  $<TARGET_FILE:assay> verify ecae --levels 3 --set t_end=10e-3 --set material.yield_stress=60e6
-  --out gates/ecae-strength)
+foreach(strength 53e6 58e6)
+  assay_test(gate-ecae-sees-${strength} LABELS gate mustfail COMMAND ${fails} "FAIL: a gate does not hold"
+    $<TARGET_FILE:assay> verify ecae --levels 3 --set t_end=10e-3 --set material.yield_stress=${strength}
+    --out gates/ecae-${strength})
+endforeach()
 # A quarter of the Taylor bar at n = 2: radius 6.21 mm, 0.112 short of 7 mm, energy lost 0.092, and accounted for to 0.0041.
 # All of it gives the same digits. The study from n = 2 to 3 takes half a minute.
 assay_test(gate-taylor-bar LABELS gate COMMAND $<TARGET_FILE:assay> verify taylor-bar --levels 2 --out gates/taylor-bar)
@@ -364,5 +366,8 @@ assay_test(gate-taylor-bar-whole LABELS gate slow COMMAND $<TARGET_FILE:assay> v
 assay_test(gate-taylor-bar-jst LABELS gate COMMAND $<TARGET_FILE:assay> verify taylor-bar --levels 2 --set scheme=jst
   --out gates/taylor-bar-jst)
 assay_test(gate-taylor-bar-fine LABELS gate slow COMMAND $<TARGET_FILE:assay> verify taylor-bar --out gates/taylor-bar-fine)
-assay_test(gate-taylor-bar-sees-strength LABELS gate mustfail slow COMMAND ${fails} "FAIL: a gate does not hold"
-  $<TARGET_FILE:assay> verify taylor-bar --levels 2 --set material.yield_stress=0.41e9 --out gates/taylor-bar-strength)
+foreach(strength 0.39e9 0.41e9)
+  assay_test(gate-taylor-bar-sees-${strength} LABELS gate mustfail slow COMMAND ${fails} "FAIL: a gate does not hold"
+    $<TARGET_FILE:assay> verify taylor-bar --levels 2 --set material.yield_stress=${strength}
+    --out gates/taylor-bar-${strength})
+endforeach()
