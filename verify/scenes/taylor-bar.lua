@@ -17,7 +17,6 @@ material = {
     yield_stress = 0.4e9, hardening = 0.1e9, -- Pa
 }
 t_end = 80e-6 -- s
-golden = { t_end = 20e-6 } -- s
 
 initial = { velocity = function() return 0, 0, -V0 end }
 rigid_wall = { point = {0, 0, 0}, normal = {0, 0, 1} } -- without friction
