@@ -78,6 +78,6 @@ gates = {
 
 view = {
     field = "plastic_strain", range = {0, 2.4}, bands = 12, -- -
-    frame = {0, far + W, -30e-3, outer + L, 0, 0}, -- m
-    direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 1, size = {700, 900},
+    frame = {0, far + W, -10e-3, outer + L - V * t_end + 4e-3, 0, 0}, -- m; down from the ram
+    direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 1, size = {1000, 900},
 }
