@@ -115,7 +115,7 @@ static bool eigenvalues(double *matrix, size_t count, double complex *eigenvalue
         }
         for (size_t i = 0; ok && i < count; i++) {
             gsl_complex value = gsl_vector_complex_get(values, i);
-            eigenvalue[i] = CMPLX(GSL_REAL(value), GSL_IMAG(value));
+            eigenvalue[i] = GSL_REAL(value) + GSL_IMAG(value) * _Complex_I;
         }
     }
     gsl_vector_complex_free(values);

@@ -18,9 +18,9 @@ sources() { find "$@" -name '*.[ch]' -print0 | xargs -0r grep -nHE "$pattern" ||
 
 # Written so that this file does not find itself.
 pattern='-f''fast-math|-O''fast|-f''unsafe-math|-f''associative-math'
-refuse "gives up reproducible arithmetic" < <(grep -rnE -e "$pattern" "${rooms[@]}" tests examples cmake CMakeLists.txt CMakePresets.json go || true)
+refuse "gives up reproducible arithmetic" < <(grep -rInE -e "$pattern" "${rooms[@]}" tests examples cmake CMakeLists.txt CMakePresets.json go || true)
 pattern='TO''DO|FIX''ME|XX''X|HA''CK'
-refuse "is left open" < <(grep -rnwE -e "$pattern" "${rooms[@]}" tests examples cmake CMakeLists.txt go .ci || true)
+refuse "is left open" < <(grep -rInwE -e "$pattern" "${rooms[@]}" tests examples cmake CMakeLists.txt go .ci || true)
 
 # Only verify/ prints and exits; snprintf and writing to a file of one's own are fine.
 pattern='\<(v?printf|puts|putchar|perror|exit|_exit|_Exit|quick_exit|abort|assert)[[:space:]]*\(|\<(stdout|stderr)\>'

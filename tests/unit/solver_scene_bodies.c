@@ -204,8 +204,6 @@ static void bad_round(void)
         {DISC(", symmetry = { Y = 0.1 } }"), 0, "domain.symmetry.Y: expected the centre of the round body, 0, got 0.1"},
         {SOLID("shape = 'cylinder', length = 2, symmetry = { Z = 0 } }"), 0,
          "domain.symmetry.Z: expected a plane across a curved axis"},
-        {PLAIN_DOMAIN, "domain = { lower = {0, 0}, upper = {2, 1}, symmetry = { X = 0 } }", 0,
-         "domain.symmetry: a box has faces that can be \"symmetric\""},
         {DISC(", symmetry = { X = 0 } }\nfaces = { X0 = 'clamped' }"), 0,
          "faces.X0: domain.symmetry.X makes it symmetric"},
         {DISC(", symmetry = { X = 0 } }\nfaces = { Y0 = 'symmetric' }"), 0,

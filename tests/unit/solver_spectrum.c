@@ -11,7 +11,7 @@
 
 static void stability_functions_are_the_exponential_to_the_order(void)
 {
-    const double complex z = CMPLX(-0.3, 0.7);
+    const double complex z = -0.3 + 0.7 * _Complex_I;
     for (const struct solver_integrator *integrator = solver_integrators(); integrator->name != NULL; integrator++) {
         double complex term = 1.0, sum = 1.0; /* each has as many stages as its order */
         for (int k = 1; k <= integrator->order; k++) {
@@ -25,7 +25,7 @@ static void stability_functions_are_the_exponential_to_the_order(void)
 
 static void stable_steps_are_the_known_limits(void)
 {
-    const double complex decay = -1.0, oscillation = CMPLX(0.0, 1.0);
+    const double complex decay = -1.0, oscillation = _Complex_I;
     static const struct {
         const char *name;
         double decay, oscillation;
