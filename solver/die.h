@@ -35,7 +35,7 @@ struct solver_die_near {
 
 enum { SOLVER_DIE_NEAR = 2 };
 
-/* The pieces of the scene's walls, which have been found sound by the reader. */
+/* The pieces of the scene's walls, which have been found sound by the reader. SOLVER_NO_MEMORY. */
 bool solver_die_create(const struct solver_scene *scene, struct solver_die *die, struct solver_error *error);
 void solver_die_free(struct solver_die *die);
 /* What of a wall is nearest to x [m]: one place, or two planes where they meet in a corner that a body can fill.

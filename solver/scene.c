@@ -89,6 +89,21 @@ static bool describe(struct solver_scene *scene, const char *path, const char *c
 
 /* --- what must hold between keys --- */
 
+static void check_frame(lua_State *L, const double frame[6])
+{
+    bool given = false, wide = false;
+    for (int i = 0; i < 3; i++) {
+        double from = frame[2 * i], to = frame[2 * i + 1];
+        given = given || from != 0 || to != 0;
+        wide = wide || to > from;
+        if (!(from <= to))
+            scene_refuse(L, "view.frame: expected x0 <= x1, y0 <= y1, z0 <= z1, got %g and %g along %c", from, to,
+                         "XYZ"[i]);
+    }
+    if (given && !wide)
+        scene_refuse(L, "view.frame: expected a box, got a point");
+}
+
 static void check_view(lua_State *L, const struct solver_view *view)
 {
     const double *d = view->direction, *up = view->up;
@@ -97,6 +112,7 @@ static void check_view(lua_State *L, const struct solver_view *view)
         scene_refuse(L, "view.range: expected two increasing numbers, got %g and %g", view->range[0], view->range[1]);
     if (cross[0] == 0 && cross[1] == 0 && cross[2] == 0)
         scene_refuse(L, "view.up: expected a direction that is neither zero nor along view.direction");
+    check_frame(L, view->frame);
 }
 
 /* Constants of plastic flow that belong together. */

@@ -209,8 +209,9 @@ struct solver_view {
     int bands;              /* filled contour bands */
     double direction[3];    /* from the body towards the eye */
     double up[3];
-    double magnify; /* displacement shown = magnify * displacement */
-    int size[2];    /* pixels */
+    double magnify;  /* displacement shown = magnify * displacement */
+    int size[2];     /* pixels */
+    double frame[6]; /* x0 x1 y0 y1 z0 z1 [m]: what stays in sight; all zero: the body with room around it */
 };
 
 /* The state at t = 0 at X [m]: displacement [m], velocity [m/s], F row by row, 3D. */

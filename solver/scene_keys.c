@@ -211,7 +211,9 @@ X("view.up", NUMBERS, AT(view.up), 0, 0, 3, "", "{0,0,1}", "list of 3 numbers", 
 X("view.magnify", NUMBER, AT(view.magnify), 0, DBL_MAX, 0, "", "1", "number >= 0",                                     \
   "displacement shown / displacement")                                                                                 \
 X("view.size", INTEGERS, AT(view.size), 64, 8192, 2, "", "{1200,900}", "list of 2 whole numbers in [64, 8192]",        \
-  "pixels")
+  "pixels")                                                                                                            \
+X("view.frame", NUMBERS, AT(view.frame), 0, 0, 6, "", OPTIONAL, "{x0, x1, y0, y1, z0, z1} [m]",                        \
+  "what must stay in sight; default: the body as it was, with room around it")
 /* clang-format on */
 
 #define SAY(key, kind, offset, low, high, count, words, preset, expects, meaning) {key, expects, meaning},

@@ -25,7 +25,8 @@ struct solver_symmetry {
  * `radius` [m] reach. SOLVER_BAD_INPUT where the cloud is not its own image in the planes. */
 bool solver_symmetry_cut(struct solver_cloud *whole, const struct solver_shape *shape, double radius,
                          struct solver_cloud **part, struct solver_error *error);
-/* What the part of a cloud keeps of the stencil of the whole, which it takes over; NULL on failure. */
+/* What the part of a cloud keeps of the stencil of the whole, which it takes over; *out is NULL on failure:
+ * SOLVER_NO_MEMORY, or SOLVER_BAD_INPUT where the stencil reaches farther than its support. */
 bool solver_symmetry_keep(struct solver_stencil *whole, const struct solver_cloud *part, struct solver_stencil **out,
                           struct solver_error *error);
 /* Writes all evolved fields of images. */

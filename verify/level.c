@@ -24,11 +24,15 @@ size_t verify_level_error(const char *name, bool *is_rate)
 }
 
 static bool figure_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
-                         bool is_rate, const char *where, double *value, struct solver_error *error)
+                         bool is_rate, const char *where, struct verify_value *value, struct solver_error *error)
 {
     for (size_t i = 0; i < scene->figure_count; i++) {
         if (strcmp(scene->figure[i].name, name) == 0) {
-            *value = is_rate ? level->figure[i].rate : level->figure[i].error;
+            const struct verify_figure *figure = &level->figure[i];
+            value->value = is_rate ? figure->rate : figure->error;
+            if (!is_rate && figure->exact == 0.0 && figure->unit != NULL) {
+                value->unit = figure->unit; /* of an absolute error; others are relative */
+            }
             return true;
         }
     }
@@ -84,7 +88,7 @@ bool verify_level_value(const struct solver_scene *scene, const struct verify_le
     if (begins(of, "indicator ", &of)) {
         return indicator_value(level, of, is_rate, where, value, error);
     }
-    return begins(of, "figure ", &of) ? figure_value(scene, level, of, is_rate, where, &value->value, error)
+    return begins(of, "figure ", &of) ? figure_value(scene, level, of, is_rate, where, value, error)
                                       : error_value(scene, level, name, where, value, error);
 }
 

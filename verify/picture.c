@@ -170,6 +170,11 @@ static bool draw_surface(const struct solver_record *record, const struct solver
         memcpy(shown.up, (double[3]){0, 1, 0}, sizeof shown.up);
     }
     frame_of(record, position, shown.frame);
+    for (int i = 0; i < 6; i++) {
+        if (view->frame[i] != 0) {
+            memcpy(shown.frame, view->frame, sizeof shown.frame);
+        }
+    }
     char why[RENDER_WHY] = "";
     bool trapped = verify_trap_suspend(); /* OSMesa divides by zero as it likes */
     bool drawn = render_draw(&surface, &shown, image, why);

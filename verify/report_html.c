@@ -105,10 +105,11 @@ static void figures(FILE *file, const struct verify_study *study)
     if (study->scene->figure_count == 0) {
         return;
     }
-    (void)fprintf(file, "<h2>Figures measured</h2><table><tr><th>figure</th><th>unit</th><th>exact</th><th>measured, "
-                        "finest level</th>");
+    (void)fprintf(file,
+                  "<h2>Figures measured</h2><table><tr><th>figure</th><th>unit</th><th>expected</th><th>measured, "
+                  "finest level</th>");
     for (size_t i = 0; i < study->level_count; i++) {
-        (void)fprintf(file, "<th>error [-]<br>n = %d</th>", study->level[i].n);
+        (void)fprintf(file, "<th>error<br>n = %d</th>", study->level[i].n);
     }
     (void)fprintf(file, "<th>order</th></tr>\n");
     for (size_t i = 0; i < study->scene->figure_count; i++) {
@@ -125,8 +126,9 @@ static void figures(FILE *file, const struct verify_study *study)
         (void)fprintf(file, "</tr>\n");
     }
     (void)fprintf(file,
-                  "</table>\n<p class=\"note\">Error: |measured / exact &minus; 1|, or |measured| where the exact "
-                  "value is 0. How each is measured stands in the scene under figures.</p>\n");
+                  "</table>\n<p class=\"note\">Error: |measured / expected &minus; 1|, or |measured|, in its unit, "
+                  "where 0 is expected: of the oracle, printed, or of a finer level, as the scene says. How each is "
+                  "measured stands in the scene under figures.</p>\n");
 }
 
 static void indicators(FILE *file, const struct verify_study *study)

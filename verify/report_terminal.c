@@ -176,12 +176,15 @@ static void print_figures(FILE *file, const struct verify_study *study)
         const struct verify_figure *figure = &finest->figure[i];
         char error[32], rate[32];
         if (i == 0) {
-            (void)fprintf(file, "\n  %-24s %16s %16s %-8s %10s %6s\n", "figure, finest level", "measured", "exact",
-                          "unit", "error [-]", "order");
+            (void)fprintf(file, "\n  %-24s %16s %16s %-8s %10s %6s\n", "figure, finest level", "measured", "expected",
+                          "unit", "error", "order");
         }
         (void)fprintf(file, "  %-24s %16.9g %16.9g %-8s %10s %6s\n", study->scene->figure[i].name, figure->measured,
                       figure->exact, figure->unit, verify_scientific(error, figure->error),
                       verify_order_text(rate, figure->rate));
+    }
+    if (study->scene->figure_count > 0) {
+        (void)fprintf(file, "  error: |measured / expected - 1|, or |measured|, in its unit, where 0 is expected\n");
     }
 }
 

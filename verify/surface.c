@@ -86,11 +86,15 @@ bool verify_surface(const uint32_t *cell, size_t cell_count, int cell_width, uin
         return surface_of_hexahedra(cell, cell_count, quad, count);
     }
     *quad = calloc(cell_count, sizeof **quad);
-    *count = cell_count;
+    *count = 0;
     for (size_t i = 0; *quad != NULL && i < cell_count; i++) {
+        struct face face;
         for (size_t j = 0; j < 4; j++) {
             size_t last = (size_t)cell_width - 1;
-            (*quad)[i][j] = cell[i * (size_t)cell_width + (j < last ? j : last)];
+            face.vertex[j] = cell[i * (size_t)cell_width + (j < last ? j : last)];
+        }
+        if (set_key(&face) || cell_width == 2) {
+            memcpy((*quad)[(*count)++], face.vertex, sizeof **quad);
         }
     }
     return *quad != NULL;

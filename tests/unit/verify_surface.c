@@ -85,10 +85,13 @@ static void collapsed(void)
 
 static void flat_and_thin(void)
 {
-    const uint32_t quad_cell[] = {0, 1, 3, 2}, line[] = {5, 6};
+    const uint32_t quad_cell[] = {0, 1, 3, 2}, beside_line[] = {0, 1, 1, 0, 0, 1, 3, 2}, line[] = {5, 6};
     uint32_t(*quad)[4] = NULL;
     size_t count = 0;
     CU_ASSERT_TRUE_FATAL(verify_surface(quad_cell, 1, 4, &quad, &count));
+    CU_ASSERT(count == 1 && quad[0][0] == 0 && quad[0][1] == 1 && quad[0][2] == 3 && quad[0][3] == 2);
+    free(quad);
+    CU_ASSERT_TRUE_FATAL(verify_surface(beside_line, 2, 4, &quad, &count));
     CU_ASSERT(count == 1 && quad[0][0] == 0 && quad[0][1] == 1 && quad[0][2] == 3 && quad[0][3] == 2);
     free(quad);
     CU_ASSERT_TRUE_FATAL(verify_surface(line, 1, 2, &quad, &count));

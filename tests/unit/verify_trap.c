@@ -55,7 +55,7 @@ static void divide_in_hot_loop(void)
     struct solver_upwind work = {.row = row, .neighbour = neighbour, .pair = pair, .V = V, .v = v};
     work.F_rate = rates;
     work.x_rate = rates + 8;
-    solver_upwind_2d.gradients(&work, 0, 2);
+    solver_upwind_2d_baseline.gradients(&work, 0, 2);
 }
 
 static void divide_in_thread(void)

@@ -44,10 +44,11 @@ history = 1000
 -- At n = 3, 5, 7 and 9: plastic work 69.8, 56.8, 53.0, 51.7 kJ, largest strain 2.96, 2.35, 2.24, 2.42 (at 35 ms 51.5, 41.7,
 -- 38.4, 37.4 kJ; 2.09, 1.71, 1.86, 1.54), ram loss 5.6, 3.5, 2.0, 2.6 %. The work converges, the largest strain does not:
 -- it is that of single particles at the inner corners, where at n = 9 cells turn over (42 of 567 at the end, none of 343 at
--- n = 7). What is expected is of n = 9, so that orders up to n = 7 come out too high; also at 10 ms, for a look that takes
--- seconds.
+-- n = 7). What is expected is of n = 9, so that orders up to n = 7 come out too high. For a look that takes
+-- seconds, n = 3 at 10 ms, it is what was found there, so that what is too soft is noticed as what is too hard is; n = 9 has
+-- 1.232 and 9.086 kJ.
 local strain, work = 2.417, 51707
-if t_end < 11e-3 then strain, work = 1.232, 9086 end
+if t_end < 11e-3 then strain, work = 1.422, 10864 end
 
 -- Section 1 is in the middle of the middle channel, section 2 is 5 mm below the second corner, where the billet's head has
 -- just come to. Means over ten places at n = 3, 5, 7 and 9: 1.32, 1.14, 1.03, 1.00 and 1.59, 0.83, 0.70, 0.66. A corner of
@@ -64,7 +65,7 @@ figures = {
 
 gates = {
     { when = { n = 3, t_end = 0.01, scheme = "jst", evolved = "pFHJ", support = 3 },
-      ["figure plastic work"] = 0.2, ["figure largest strain"] = 0.16, ["figure ram loss"] = 0.06,
+      ["figure plastic work"] = 0.02, ["figure largest strain"] = 0.05, ["figure ram loss"] = 0.06,
       ["indicator clumping"] = 0.35 },
     { when = { n = 5, middle = 16e-3, t_end = 27e-3, scheme = "jst", evolved = "pFHJ", support = 3 },
       ["figure ram loss"] = 0.04, ["indicator clumping"] = 0.25, ["indicator checkerboard"] = 0.2 },
@@ -77,5 +78,6 @@ gates = {
 
 view = {
     field = "plastic_strain", range = {0, 2.4}, bands = 12, -- -
+    frame = {0, far + W, -10e-3, outer + L - V * t_end + 4e-3, 0, 0}, -- m; down from the ram
     direction = {0, 0, 1}, up = {0, 1, 0}, magnify = 1, size = {1000, 900},
 }

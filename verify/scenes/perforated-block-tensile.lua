@@ -39,5 +39,6 @@ gates = {
 
 view = {
     field = "pressure", range = {-4e6, 12e6}, bands = 16, -- Pa
+    frame = {0, 0.5, 0, 0.5, 0, 0.95}, -- m
     direction = {1, 0.7, 0.5}, up = {0, 0, 1}, magnify = 1, size = {900, 1000},
 }

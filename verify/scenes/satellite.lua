@@ -47,6 +47,7 @@ gates = {
 }
 
 view = {
-    field = "pressure", range = {-2e3, 6e3}, bands = 16, -- Pa
+    field = "pressure", range = {-2e3, 10e3}, bands = 12, -- Pa
+    frame = {-6.6, 6.6, -6.6, 6.6, 0, 3}, -- m
     direction = {0.5, -0.9, 0.9}, up = {0, 0, 1}, magnify = 1, size = {1100, 900},
 }

@@ -35,6 +35,7 @@ gates = {
 }
 
 view = {
-    field = "pressure", range = {-1e3, 6e3}, bands = 14, -- Pa
+    field = "pressure", range = {-500, 4000}, bands = 18, -- Pa
+    frame = {-3.2, 3.2, -3.2, 3.2, -2.6, 2.6}, -- m
     direction = {0.5, -0.6, 1}, up = {0, 0, 1}, magnify = 1, size = {1000, 900},
 }

@@ -17,7 +17,6 @@ material = {
     yield_stress = 0.4e9, hardening = 0.1e9, -- Pa
 }
 t_end = 80e-6 -- s
-golden = { t_end = 20e-6 } -- s
 
 initial = { velocity = function() return 0, 0, -V0 end }
 rigid_wall = { point = {0, 0, 0}, normal = {0, 0, 1} } -- without friction
@@ -34,12 +33,16 @@ probes = { { name = "foot", X = {0, 0, 0} }, { name = "rim", X = {R, 0, 0} }, { 
 
 -- Printed in 000_e9ec29e1bde7947d.txt, Table 2, [mm]: 6.95 (hexahedra), 6.99 (average nodal pressure), 6.98 (JST), 7.00
 -- (Petrov-Galerkin, and cell-centred upwind finite volumes), 6.89 (its Upwind-SPH, {p,F}); 6.98 in 004 (JST-SPH). No
--- length is printed as a number: what it is compared with is ours at n = 4 (upwind).
+-- length is printed as a number: what it is compared with is ours at n = 4 (upwind). Since all radii fall short of what is
+-- printed, a bar that is too soft would come nearer: "at n = 2" are those found before, held both ways.
+local found = scheme == "jst" and { radius = 6.610e-3, length = 21.859e-3 } or { radius = 6.213e-3, length = 21.896e-3 }
 figures = {
     radius = { measure = "distance", from = "foot", to = "rim", expected = 7.0e-3 }, -- m
     ["radius along y"] = { measure = "distance", from = "foot", to = "rim y", expected = 7.0e-3 }, -- m
     ["radius diagonally"] = { measure = "distance", from = "foot", to = "diagonal", expected = 7.0e-3 }, -- m
     length = { measure = "distance", from = "foot", to = "top", expected = 21.7e-3 }, -- m
+    ["radius at n = 2"] = { measure = "distance", from = "foot", to = "rim", expected = found.radius }, -- m
+    ["length at n = 2"] = { measure = "distance", from = "foot", to = "top", expected = found.length }, -- m
     ["drift of the top"] = { measure = "drift", probe = "top", across = {3} },
     ["drift of the foot"] = { measure = "drift", probe = "foot", across = {3} },
     ["energy lost"] = { measure = "energy lost" },
@@ -69,11 +72,13 @@ gates = {
     { ["figure drift of the top"] = 1e-12, ["figure drift of the foot"] = 1e-12, ["indicator linear momentum"] = 1e-12 },
     { when = { n = 2, evolved = "pF", scheme = "upwind" },
       ["figure radius"] = 0.114, ["figure radius along y"] = 0.114, ["figure radius diagonally"] = 0.114,
+      ["figure radius at n = 2"] = 4e-3, ["figure length at n = 2"] = 4e-3,
       ["figure energy lost"] = 0.093, ["figure energy rise"] = 1e-12, ["figure energy balance"] = 4.3e-3,
       ["figure drift of the top"] = 1e-12, ["figure drift of the foot"] = 1e-12,
       ["indicator linear momentum"] = 1e-12, ["indicator clumping"] = 0.2 },
     { when = { n = 2, evolved = "pF", scheme = "jst", ["jst.kappa4"] = 1 / 64 },
-      ["figure radius"] = 0.057, ["figure energy lost"] = 0.07, ["figure energy rise"] = 1e-12,
+      ["figure radius"] = 0.057, ["figure radius at n = 2"] = 4e-3, ["figure length at n = 2"] = 4e-3,
+      ["figure energy lost"] = 0.07, ["figure energy rise"] = 1e-12,
       ["figure energy balance"] = 8.4e-3, ["indicator linear momentum"] = 1e-12, ["indicator clumping"] = 0.14 },
     { when = { n = 3, evolved = "pF", scheme = "upwind" },
       ["figure radius"] = 0.085, ["rate figure radius"] = 0.7, ["figure radius along y"] = 0.085,
@@ -89,5 +94,6 @@ gates = {
 
 view = {
     field = "plastic_strain", range = {0, 1.6}, bands = 16, -- -
+    frame = { quarter == 1 and 0 or -7e-3, 7e-3, quarter == 1 and 0 or -7e-3, 7e-3, 0, 30e-3 }, -- m
     direction = {1, -0.8, 0.25}, up = {0, 0, 1}, magnify = 1, size = {700, 900},
 }
