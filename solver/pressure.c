@@ -24,6 +24,8 @@ static const char *why_not(const struct solver_body *body)
                ? "only the jump of the pressure is symmetric; take volume_flux = \"pressure\""
            : strcmp(scene->reconstruction, "least-squares") == 0
                ? "the gradient must be the adjoint of the divergence; take reconstruction = \"stencil\" or \"none\""
+           : body->cloud->symmetry != NULL
+               ? "images of particles have no pressure of their own; take the whole body, without domain.symmetry"
            : body->cloud->wall_count > 0 ? "particles of walls have no pressure; take lattice = \"nodes\""
            : body->cloud->body != NULL || scene->contact_law != SOLVER_CONTACT_NONE
                ? "contact changes the velocities that the pressure has balanced; take one body, and no contact"
