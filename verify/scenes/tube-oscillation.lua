@@ -47,8 +47,8 @@ gates = {
       ["indicator angular momentum"] = 1e-11, ["indicator energy gain"] = 1e-9 },
     { when = { ["material.nu"] = 0.5, ["incompressible.solver"] = "poisson", velocity = 10, stencil = "closed", n = 16 },
       ["figure period"] = 3.2e-3, ["rate figure period"] = 1.3, p = 2e-2, P = 0.2, P_l1 = 0.122, u = 8.9e-3,
-      ["rate u"] = 1.9, snapshots_p = 5.5e-3, snapshots_u = 4.1e-3, ["figure volume change"] = 1.1e-3, ["indicator linear momentum"] = 1e-11,
-      ["indicator angular momentum"] = 1e-11, ["indicator energy gain"] = 1e-9 },
+      ["rate u"] = 1.9, snapshots_p = 5.5e-3, snapshots_u = 4.1e-3, ["figure volume change"] = 1.1e-3,
+      ["indicator linear momentum"] = 1e-11, ["indicator angular momentum"] = 1e-11, ["indicator energy gain"] = 1e-9 },
 }
 
 view = {
