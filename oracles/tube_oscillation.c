@@ -143,7 +143,6 @@ const struct oracle_kind oracle_tube_oscillation = {
     .dim = 2,
     .smoothness = ORACLE_SMOOTH,
     .finite_strain = true,
-    .awaits = "incompressibility",
     .parameter = parameters,
     .create = create,
     .destroy = destroy,

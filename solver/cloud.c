@@ -129,6 +129,7 @@ void solver_cloud_arrays(const struct solver_cloud *cloud, struct solver_cost_ar
     solver_cost_array(arrays, group, "face points", cloud->face_point, cloud->face_point_count,
                       sizeof *cloud->face_point);
     solver_cost_array(arrays, group, "cells of pictures", cloud->cell, cloud->cell_count << dim, sizeof *cloud->cell);
+    solver_cost_array(arrays, group, "quality", cloud->quality, 1, sizeof *cloud->quality);
     solver_cost_array(arrays, group, "itself", cloud, 1, sizeof *cloud);
 }
 

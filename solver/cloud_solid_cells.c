@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static bool kept_any(const struct solid_grid *grid, size_t node, uint32_t face)
 {
@@ -41,18 +42,19 @@ bool solid_list_cells(const struct solid_grid *grid, struct solver_cloud *cloud,
                                           {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
     size_t corners = (size_t)1 << grid->dim;
     uint32_t *stands = NULL;
+    uint32_t *listed = NULL; /* with room for all cells of the box */
     size_t cells = grid->cell_count;
     free(cloud->cell);
     cloud->cell = NULL;
     bool good = solver_alloc((void **)&stands, grid->nodes, sizeof *stands, "corners of cells", error) &&
-                solver_alloc((void **)&cloud->cell, cells * corners, sizeof *cloud->cell, "lattice cells", error);
+                solver_alloc((void **)&listed, cells * corners, sizeof *listed, "lattice cells", error);
     for (size_t node = 0; good && node < grid->nodes; node++) {
         good = stand_for(grid, node, &stands[node], error);
     }
     for (size_t c = 0; good && c < cells; c++) {
         uint32_t at[3] = {(uint32_t)(c % grid->cells[0]), (uint32_t)(c / grid->cells[0] % grid->cells[1]),
                           (uint32_t)(c / grid->cells[0] / grid->cells[1])};
-        uint32_t *cell = cloud->cell + cloud->cell_count * corners;
+        uint32_t *cell = listed + cloud->cell_count * corners;
         bool whole = true;
         bool inner = false;
         for (size_t k = 0; k < corners; k++) {
@@ -64,6 +66,12 @@ bool solid_list_cells(const struct solid_grid *grid, struct solver_cloud *cloud,
         }
         cloud->cell_count += whole && inner;
     }
+    good = good && solver_alloc((void **)&cloud->cell, cloud->cell_count * corners, sizeof *cloud->cell,
+                                "lattice cells", error);
+    if (good) {
+        memcpy(cloud->cell, listed, cloud->cell_count * corners * sizeof *listed);
+    }
+    free(listed);
     free(stands);
     return good;
 }

@@ -156,15 +156,14 @@ static void add_wall(struct solver_die *die, const struct solver_die_wall *wall)
 
 bool solver_die_create(const struct solver_scene *scene, struct solver_die *die, struct solver_error *error)
 {
-    size_t most = 0;
     *die = (struct solver_die){.wall_count = scene->die_count};
     for (size_t w = 0; w < scene->die_count; w++) {
-        most += 2 * scene->die[w].count;
+        die->room += 2 * scene->die[w].count;
     }
-    if (most == 0) {
+    if (die->room == 0) {
         return true;
     }
-    if (!solver_alloc((void **)&die->piece, most, sizeof *die->piece, "pieces of walls", error)) {
+    if (!solver_alloc((void **)&die->piece, die->room, sizeof *die->piece, "pieces of walls", error)) {
         return false;
     }
     for (size_t w = 0; w < scene->die_count; w++) {

@@ -21,8 +21,8 @@ struct solver_die_piece {
 };
 
 struct solver_die {
-    size_t count;
-    struct solver_die_piece *piece; /* [count] wall by wall, along each path */
+    size_t count, room;
+    struct solver_die_piece *piece; /* [room], of which [count] wall by wall, along each path */
     size_t wall_count;
     size_t first[SOLVER_DIE_WALLS + 1]; /* piece at which a wall begins */
 };

@@ -96,6 +96,7 @@ static void terms_of(const struct solver_upwind *work, const struct solver_jst *
     double means = jst->exchange != NULL ? 1.0 : 0.0;
     double harmonic = 3.0 + 3.0 * LANES + means;
     solver_cost_term(terms, "Laplacian of v", 1, pairs * 3.0 * LANES + particles * (2.0 + LANES));
+    solver_cost_term(terms, "kappa4 by plastic strain", 1, jst->fades ? particles * 4.0 : 0.0);
     solver_cost_term(terms, "internal force", 2, pairs * FLOPS_ADD_SCALED);
     solver_cost_term(terms, "biharmonic dissipation of p", 2, pairs * (2.0 + 4.0 * LANES) + particles * (LANES + 2.0));
     solver_cost_term(terms, "harmonic dissipation of p", 2, pairs * harmonic);

@@ -36,7 +36,7 @@ struct solver_flow {
                          const double *H, const double *J, const double *before, double *now, double *P);
     /* Operations of one particle's (cost.h), with H and J of its own or those of F. */
     int (*stress_flops)(bool H, bool J);
-    int fastest_flops;
+    int fastest_flops, energy_flops;
     /* Elastic energy [J/m^3]. */
     double (*energy)(const struct solver_material_constants *material, const double *F, double J, const double *now);
     /* The component of P normal to the plane [Pa]; below 3D only. */
@@ -71,7 +71,7 @@ struct solver_material {
                              const double *J, double *pressure);
     /* Operations of one particle's (cost.h), with H and J of its own or those of F. */
     int (*stress_flops)(bool H, bool J);
-    int volumetric_flops, fastest_flops;
+    int volumetric_flops, fastest_flops, energy_flops;
     /* An upper bound, above zero, of the wave speeds [m/s] in all directions over particles begin to end - 1; exact at
      * rest. */
     double (*fastest)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,

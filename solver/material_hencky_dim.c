@@ -379,7 +379,8 @@ enum {
         FLOPS_COFACTOR + FLOPS_DETERMINANT + 1 + LOGARITHM + 1 + FLOPS_TENSOR + DIM * DIM * (5 + FLOPS_DOT + 2 * LANES),
     MODULUS = 7 * DIM + DIM * (DIM - 1) / 2 * (LOGARITHM + 5) + 5,
     FASTEST = MODULUS + LOGARITHM + 2,
-    YIELD = 12 + 4 + 3, /* equivalent stress and its excess */
+    YIELD = 12 + 4 + 3,          /* equivalent stress and its excess */
+    ENERGY = 16 + LOGARITHM + 6, /* of strains and J */
     RETURN = FLOPS_COFACTOR + FLOPS_DETERMINANT + 1 + 3 * (2 * LOGARITHM + 4) +
              DIM * (DIM * (3 + FLOPS_DOT) + DIM * (DIM + 1) / 2 * (FLOPS_DOT + 2)) + 7
 };
@@ -400,6 +401,7 @@ static const struct solver_flow plastic_flow = {
     .stress_range = flow_stress_range,
     .stress_flops = flow_stress_flops,
     .fastest_flops = STRAINS + PLASTIC_STRAINS + FASTEST,
+    .energy_flops = PLASTIC_STRAINS + ENERGY,
     .energy = energy_of,
     .stress_normal = normal_of,
     .fastest = flow_fastest,
@@ -417,5 +419,6 @@ const struct solver_material DIM_NAME(solver_hencky) = {
     .stress_flops = stress_flops,
     .volumetric_flops = LOGARITHM + 1,
     .fastest_flops = STRAINS + FASTEST,
+    .energy_flops = STRAINS + ENERGY,
     .fastest = fastest,
 };

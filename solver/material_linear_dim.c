@@ -129,5 +129,6 @@ const struct solver_material DIM_NAME(solver_linear_elastic) = {
     .volumetric_range = volumetric_range,
     .stress_flops = stress_flops,
     .volumetric_flops = 2,
+    .energy_flops = (2 * DIM + 1) + 2 + 5 * DIM * DIM + DIM + 7,
     .fastest = fastest,
 };

@@ -236,6 +236,7 @@ enum {
     ROOT = 2 + SOLVER_COST_FUNCTION, /* mu / cbrt(J J) */
     MEASURES = FLOPS_COFACTOR + FLOPS_DETERMINANT,
     BOUND = DIM * DIM * (FLOPS_DOT + 1), /* square_bound */
+    ENERGY = INVARIANT + ROOT + 9,       /* of J */
     FASTEST = MEASURES + INVARIANT + ROOT + 6 + 2 + 5 + 2 * BOUND + 17 + 1
 };
 
@@ -261,6 +262,7 @@ const struct solver_material DIM_NAME(solver_neo_hookean) = {
     .stress_flops = stress_flops,
     .volumetric_flops = 2,
     .fastest_flops = FASTEST,
+    .energy_flops = FLOPS_DETERMINANT + ENERGY,
     .fastest = fastest,
 };
 
@@ -275,5 +277,6 @@ const struct solver_material DIM_NAME(solver_neo_hookean_polyconvex) = {
     .stress_flops = stress_flops_polyconvex,
     .volumetric_flops = 2,
     .fastest_flops = FASTEST,
+    .energy_flops = ENERGY,
     .fastest = fastest,
 };

@@ -8,6 +8,7 @@
 #include "solver/pressure_solvers.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,6 +25,8 @@ static const char *why_not(const struct solver_body *body)
                ? "only the jump of the pressure is symmetric; take volume_flux = \"pressure\""
            : strcmp(scene->reconstruction, "least-squares") == 0
                ? "the gradient must be the adjoint of the divergence; take reconstruction = \"stencil\" or \"none\""
+           : body->cloud->symmetry != NULL
+               ? "images of particles have no pressure of their own; take the whole body, without domain.symmetry"
            : body->cloud->wall_count > 0 ? "particles of walls have no pressure; take lattice = \"nodes\""
            : body->cloud->body != NULL || scene->contact_law != SOLVER_CONTACT_NONE
                ? "contact changes the velocities that the pressure has balanced; take one body, and no contact"
@@ -49,42 +52,83 @@ static void set_constants(struct solver_pressure *of)
     of->eta = asked->alpha / constants->rho;
 }
 
-static bool reserve(struct solver_pressure *of, struct solver_error *error)
+/* An array of doubles; of none where its size is 0. */
+struct row {
+    const char *name;
+    size_t offset, size;
+};
+enum { ROWS = 18 };
+
+static void list(const struct solver_pressure *of, struct row row[ROWS])
 {
     size_t count = of->stencil->count;
-    size_t vector = of->loops->lanes;
+    size_t vectors = count * of->loops->lanes;
+    size_t of_slopes = of->work->reconstruct ? vectors : 0;
     bool pseudo = of->body->scene->incompressible.solver == SOLVER_PRESSURE_PSEUDO_TIME;
-    const struct {
-        double **array;
-        size_t size;
-    } rows[] = {
-        {&of->p, count},
-        {&of->increment, (size_t)SOLVER_STAGES * count},
-        {&of->reference, of->compliance > 0.0 ? count : 0},
-        {&of->stray, of->restore > 0.0 ? count : 0},
-        {&of->weight, of->stencil->pairs},
-        {&of->mobility, count * vector},
-        {&of->acceleration, count * vector},
-        {&of->slope, of->work->reconstruct ? count * vector : 0},
-        {&of->moment, of->work->reconstruct ? count * vector : 0},
-        {&of->residual, count},
-        {&of->total, count},
-        {&of->direction, count},
-        {&of->image, count},
-        {&of->diagonal, count},
-        {&of->predicted, count * vector},
-        {&of->past_v, pseudo ? count * vector : 0},
-        {&of->past_p, pseudo ? count : 0},
-        {&of->partial, solver_pieces(count)},
+#define AT(member) offsetof(struct solver_pressure, member)
+    const struct row rows[ROWS] = {
+        {"of the stresses", AT(p), count},
+        {"increments of stages", AT(increment), (size_t)SOLVER_STAGES * count},
+        {"reference", AT(reference), of->compliance > 0.0 ? count : 0},
+        {"stray volumes", AT(stray), of->restore > 0.0 ? count : 0},
+        {"weights of jumps", AT(weight), of->stencil->pairs},
+        {"mobilities", AT(mobility), vectors},
+        {"accelerations", AT(acceleration), vectors},
+        {"slopes", AT(slope), of_slopes},
+        {"moments of jumps", AT(moment), of_slopes},
+        {"residual", AT(residual), count},
+        {"of the residual", AT(total), count},
+        {"direction", AT(direction), count},
+        {"image of the direction", AT(image), count},
+        {"diagonal", AT(diagonal), count},
+        {"predicted velocities", AT(predicted), vectors},
+        {"velocities before", AT(past_v), pseudo ? vectors : 0},
+        {"increments before", AT(past_p), pseudo ? count : 0},
+        {"sums of pieces", AT(partial), solver_pieces(count)},
     };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        if (rows[i].size > 0 &&
-            !solver_alloc((void **)rows[i].array, rows[i].size, sizeof(double), "pressure", error)) {
+#undef AT
+    memcpy(row, rows, sizeof rows);
+}
+
+static double **array_at(struct solver_pressure *of, const struct row *row)
+{
+    return (double **)((char *)of + row->offset);
+}
+
+static bool reserve(struct solver_pressure *of, struct solver_error *error)
+{
+    struct row row[ROWS];
+    list(of, row);
+    for (size_t i = 0; i < ROWS; i++) {
+        if (row[i].size > 0 &&
+            !solver_alloc((void **)array_at(of, &row[i]), row[i].size, sizeof(double), "pressure", error)) {
             return false;
         }
-        of->doubles += rows[i].size;
+        of->doubles += row[i].size;
     }
     return true;
+}
+
+void solver_pressure_arrays(const struct solver_pressure *of, struct solver_cost_arrays *arrays)
+{
+    static const char group[] = "pressure";
+    struct row row[ROWS];
+    if (of == NULL) {
+        return;
+    }
+    list(of, row);
+    for (size_t i = 0; i < ROWS; i++) {
+        solver_cost_bytes(arrays, group, row[i].name,
+                          row[i].size > 0 ? solver_alloc_bytes(row[i].size, sizeof(double)) : 0);
+    }
+    solver_cost_array(arrays, group, "itself", of, 1, sizeof *of);
+}
+
+void solver_pressure_terms(const struct solver_pressure *of, struct solver_cost_terms *terms)
+{
+    if (of != NULL) {
+        of->loops->terms(of, of->solved > 0 ? (double)of->iterations / (double)of->solved : 0.0, terms);
+    }
 }
 
 /* The body's volume, and the largest diagonal of the Laplacian. */
@@ -140,11 +184,10 @@ void solver_pressure_free(struct solver_pressure *of)
     if (of == NULL) {
         return;
     }
-    double *const arrays[] = {of->p,      of->increment, of->reference, of->weight,       of->mobility, of->slope,
-                              of->moment, of->residual,  of->image,     of->acceleration, of->diagonal, of->predicted,
-                              of->past_v, of->partial,   of->direction, of->total,        of->past_p,   of->stray};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-        free(arrays[i]);
+    struct row row[ROWS];
+    list(of, row);
+    for (size_t i = 0; i < ROWS; i++) {
+        free(*array_at(of, &row[i]));
     }
     free(of);
 }
@@ -268,6 +311,7 @@ bool solver_pressure_correct(struct solver_pressure *of, const struct solver_sta
         return false;
     }
     take_over(of, state, &integrator->stage[stage], increment);
+    of->solved++;
     return true;
 }
 
@@ -275,5 +319,6 @@ bool solver_pressure_keep(struct solver_pressure *of, struct solver_keeper *keep
 {
     size_t size = SOLVER_STAGES * of->body->cloud->count * sizeof *of->increment;
     return solver_keep(keeper, "increments of the pressure", of->increment, size, error) &&
-           solver_keep(keeper, "iterations of the pressure", &of->iterations, sizeof of->iterations, error);
+           solver_keep(keeper, "iterations of the pressure", &of->iterations, sizeof of->iterations, error) &&
+           solver_keep(keeper, "stages of the pressure", &of->solved, sizeof of->solved, error);
 }

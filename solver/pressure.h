@@ -32,6 +32,7 @@
 #ifndef SOLVER_PRESSURE_H
 #define SOLVER_PRESSURE_H
 
+#include "solver/cost.h"
 #include "solver/scheme.h"
 #include "solver/stencil.h"
 #include "solver/upwind.h"
@@ -67,7 +68,7 @@ struct solver_pressure {
     double laplacian;                     /* [1/m^2] largest diagonal of the Laplacian of the pseudo-time */
     double tau, step;                     /* [s] */
     bool sealed;                          /* a constant pressure moves nothing */
-    size_t iterations;                    /* since the start */
+    size_t iterations, solved;            /* since the start, and in how many stages */
     size_t doubles;                       /* in all arrays */
 };
 
@@ -93,6 +94,8 @@ struct solver_pressure_loops {
     /* eta V times the Laplacian of q (eq. 58), added to out. */
     void (*spread)(const struct solver_pressure *of, const double *q, double eta, double *out, size_t begin,
                    size_t end);
+    /* Operations (cost.h), where a stage takes so many iterations. */
+    void (*terms)(const struct solver_pressure *of, double iterations, struct solver_cost_terms *terms);
 };
 
 SOLVER_DECLARE_LOOPS(struct solver_pressure_loops, solver_pressure);
@@ -103,6 +106,9 @@ bool solver_pressure_create(const struct solver_body *body, const struct solver_
                             const struct solver_upwind *work, struct solver_pressure **pressure,
                             struct solver_error *error);
 void solver_pressure_free(struct solver_pressure *of);
+/* Of NULL, nothing. Iterations are as many as stages have taken so far: none before the first step. */
+void solver_pressure_arrays(const struct solver_pressure *of, struct solver_cost_arrays *arrays);
+void solver_pressure_terms(const struct solver_pressure *of, struct solver_cost_terms *terms);
 
 /* The initial pressures, from the Jacobians that the scheme has put in work->J. */
 void solver_pressure_start(const struct solver_pressure *of);

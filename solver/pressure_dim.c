@@ -1,6 +1,7 @@
 /* The pair loops of the pressure of an incompressible body (pressure.h), compiled per dimension. */
 #include "solver/pressure.h"
 
+#include "solver/dim_flops.h"
 #include "solver/dim_sums.h"
 
 #include <math.h>
@@ -39,7 +40,8 @@ static void weights(const struct solver_pressure *of, size_t begin, size_t end)
             vec along = work->frozen ? distance : load(work->x + b * LANES) - load(work->x + a * LANES);
             vec area = {0};
             for (int I = 0; I < DIM; I++) {
-                area += (H_a.column[I] + H_b.column[I]) * (0.5 * distance[I]);
+                double half = 0.5 * distance[I];
+                area += (H_a.column[I] + H_b.column[I]) * half;
             }
             double normal = dot(along, area);
             of->weight[ab] =
@@ -85,13 +87,14 @@ static void slopes(const struct solver_pressure *of, const double *q, size_t beg
     const struct solver_upwind *work = of->work;
     for (size_t a = begin; a < end; a++) {
         vec slope = {0};
+        double per_V = 0.5 / work->V[a];
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
             double difference = q[work->neighbour[ab]] - q[a];
             for (int I = 0; I < DIM; I++) {
                 slope[I] += difference * work->pair[ab * PAIR + (size_t)I];
             }
         }
-        store(of->slope + a * LANES, slope * (0.5 / work->V[a]));
+        store(of->slope + a * LANES, slope * per_V);
     }
 }
 
@@ -121,7 +124,8 @@ static inline __attribute__((always_inline)) void balance_with(const struct solv
         }
         out[a] = 0.5 * factor * contract(area_map(work, a), G) + flux;
         if (reconstruct) {
-            store(of->moment + a * LANES, moment * (0.5 / work->V[a]));
+            double per_V = 0.5 / work->V[a];
+            store(of->moment + a * LANES, moment * per_V);
         }
     }
 }
@@ -185,6 +189,66 @@ static void strays(const struct solver_pressure *of, size_t begin, size_t end)
     }
 }
 
+/* --- operations (cost.h) --- */
+
+enum { FLOPS_TIMES = (2 * DIM - 1) * LANES }; /* of times */
+
+/* One evaluation of `balance`, with what `reconstruct` adds to it. */
+static double flops_of_balance(const struct solver_pressure *of, double particles, double pairs)
+{
+    double flops = pairs * (LANES + FLOPS_ADD_SCALED + 3.0) + particles * (FLOPS_CONTRACT + 3.0);
+    if (of->work->reconstruct) {
+        flops += pairs * (1.0 + 2.0 * DIM) + particles * (1.0 + LANES);               /* slopes */
+        flops += pairs * (4.0 * LANES + FLOPS_DOT + 3.0) + particles * (1.0 + LANES); /* jumps, moments */
+        flops += pairs * 2.0 * DIM + particles * (2.0 * DIM + 2.0);                   /* give_back */
+    }
+    return flops;
+}
+
+static double flops_of_stress(const struct solver_upwind *work)
+{
+    const struct solver_material *material = work->material;
+    bool cofactor = work->cofactor != NULL;
+    return material->stress_flops(cofactor, work->J != NULL) + (cofactor && !work->evolves_H ? FLOPS_COFACTOR : 0.0) +
+           (work->pressure != NULL ? material->volumetric_flops : 0.0);
+}
+
+static void terms_of(const struct solver_pressure *of, double iterations, struct solver_cost_terms *terms)
+{
+    bool poisson = of->body->scene->incompressible.solver == SOLVER_PRESSURE_POISSON;
+    bool stores = of->compliance > 0.0;
+    double particles = (double)of->stencil->count;
+    double pairs = (double)of->stencil->pairs;
+    double sealed = of->sealed ? 3.0 : 0.0; /* a mean is taken away */
+    double balance = flops_of_balance(of, particles, pairs);
+    double accelerate = pairs * (FLOPS_TIMES + 2.0 * LANES) + particles * (FLOPS_TIMES + 2.0 * LANES);
+    double residual = balance + particles * (2.0 + sealed + (of->stray != NULL ? 2.0 : 0.0) + (stores ? 4.0 : 0.0));
+    double velocity = accelerate + particles * 2.0 * LANES;
+    double weights =
+        pairs * (LANES * (of->work->frozen ? 1.0 : 2.0) + DIM * (1.0 + 3.0 * LANES) + 3.0 * FLOPS_DOT + 5.0);
+    double diagonal =
+        pairs * (FLOPS_TIMES + LANES + FLOPS_DOT + 2.0) + particles * (FLOPS_TIMES + LANES + FLOPS_DOT + 5.0);
+    double stray = 4.0 + (of->work->frozen ? FLOPS_TRACE + 1.0 : FLOPS_DETERMINANT + 1.0);
+    double others = 2.0 * DIM + (of->stray != NULL ? stray : 0.0) + (stores ? 4.0 : 0.0); /* mobilities too */
+    double taken = 4.0 + 3.0 * LANES + 3.0; /* with the integrator's sums */
+    solver_cost_term(terms, "pressure: its equation", 0, weights + diagonal + particles * others);
+    solver_cost_term(terms, "pressure: first residual", 0, velocity + residual);
+    if (poisson) {
+        double apply = accelerate + balance + particles * (3.0 + sealed);
+        solver_cost_term(terms, "pressure: iterations", 0, iterations * (apply + particles * (12.0 + sealed)));
+        solver_cost_term(terms, "pressure: last velocity", 0, velocity);
+    } else {
+        double spread = of->eta == 0.0 ? 0.0 : pairs * (LANES + FLOPS_DOT + 5.0) + particles * 2.0;
+        double advance = residual + spread + accelerate + particles * (6.0 * LANES + 4.0);
+        solver_cost_term(terms, "pressure: iterations", 0, (2.0 * iterations + 1.0) * advance - residual);
+        solver_cost_term(terms, "pressure: pseudo-step", 0, pairs + particles * 2.0);
+        solver_cost_term(terms, "pressure: means of steps", 0, iterations * particles * (2.0 * LANES + 2.0));
+    }
+    solver_cost_term(terms, "pressure: stresses that go with it", 0, particles * flops_of_stress(of->work));
+    solver_cost_term(terms, "pressure: step of v and p", 0, particles * taken);
+    solver_cost_once(terms, "pressure: of the state", particles * 2.0);
+}
+
 const struct solver_pressure_loops DIM_NAME(solver_pressure) = {
     .lanes = LANES,
     .weights = weights,
@@ -194,5 +258,6 @@ const struct solver_pressure_loops DIM_NAME(solver_pressure) = {
     .balance = balance,
     .give_back = give_back,
     .spread = diffuse,
+    .terms = terms_of,
     .strays = strays,
 };

@@ -290,6 +290,7 @@ void solver_run_cost(const struct solver_run *run, struct solver_cost_arrays *ar
     solver_wall_arrays(&run->wall, run->cloud->count, arrays);
     solver_projection_arrays(&run->projection, arrays);
     solver_cloud_arrays(run->cloud, arrays);
+    solver_symmetry_arrays(run->cloud, arrays);
     solver_run_output_arrays(run, arrays);
     solver_cost_array(arrays, "run", "itself", run, 1, sizeof *run);
     terms->count = 0;
@@ -298,5 +299,6 @@ void solver_run_cost(const struct solver_run *run, struct solver_cost_arrays *ar
     solver_contact_terms(&run->contact, terms);
     solver_wall_terms(&run->wall, stages, terms);
     solver_projection_terms(&run->projection, stages, terms);
+    solver_symmetry_terms(run->cloud, terms);
     solver_state_terms(&run->state, run->integrator, terms);
 }

@@ -133,6 +133,7 @@ void solver_upwind_arrays(const void *of, struct solver_cost_arrays *arrays)
     const struct solver_upwind_system *system = of;
     solver_stencil_arrays(system->stencil, arrays);
     solver_cost_array(arrays, "scheme", "itself", system, 1, system->size);
+    solver_pressure_arrays(system->pressure, arrays);
 }
 
 void solver_upwind_terms(const void *of, struct solver_cost_terms *terms)
@@ -147,6 +148,10 @@ void solver_upwind_terms(const void *of, struct solver_cost_terms *terms)
         system->loops->rate_terms(work, count, terms);
     }
     system->loops->particle_terms(work, count, terms);
+    if (work->lost != NULL) { /* of a symmetric part, shares of particles */
+        solver_cost_term(terms, "power lost: its sum", 0, (double)count * (system->stencil->own != NULL ? 3.0 : 1.0));
+    }
+    solver_pressure_terms(system->pressure, terms);
 }
 
 size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])

@@ -241,6 +241,7 @@ void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_c
     solver_cost_array(arrays, group, "least squares", stencil->least_squares, stencil->pairs * dim, sizeof(double));
     solver_cost_array(arrays, group, "row sums", stencil->row_sum, stencil->count * dim, sizeof(double));
     solver_cost_array(arrays, group, "volumes", stencil->V, stencil->count, sizeof(double));
+    solver_cost_array(arrays, group, "volumes of the part", stencil->own, stencil->count, sizeof(double));
     solver_cost_array(arrays, group, "face points", stencil->face_point, stencil->face_point_count,
                       sizeof *stencil->face_point);
     solver_cost_array(arrays, group, "itself", stencil, 1, sizeof *stencil);

@@ -20,6 +20,7 @@ struct cutting {
     struct solver_graph graph;
     uint8_t *keep; /* [count] enum keep */
     size_t count[FAR + 1];
+    size_t cells, face_points; /* of the part */
 };
 
 /* Distance of particle a above the plane across `axis`, in spacings; 1 where there is none. */
@@ -38,7 +39,19 @@ static bool is_above(const struct cutting *of, size_t a)
     return above(of, a, 0) > -same && above(of, a, 1) > -same && above(of, a, 2) > -same;
 }
 
-/* Marks the particles that are kept, and counts them. */
+/* Whether all corners of a cell are of the part. */
+static bool has_cell(const struct cutting *of, size_t c)
+{
+    size_t corners = (size_t)1 << of->whole->dim;
+    const uint32_t *cell = of->whole->cell + c * corners;
+    bool inside = true;
+    for (size_t k = 0; k < corners; k++) {
+        inside = inside && of->keep[cell[k]] == PART;
+    }
+    return inside;
+}
+
+/* Marks the particles that are kept, and counts them and what they are corners of. */
 static void mark(struct cutting *of)
 {
     const struct solver_graph *graph = &of->graph;
@@ -56,6 +69,12 @@ static void mark(struct cutting *of)
     }
     for (size_t a = 0; a < count; a++) {
         of->count[of->keep[a]]++;
+    }
+    for (size_t c = 0; c < of->whole->cell_count; c++) {
+        of->cells += has_cell(of, c) ? 1 : 0;
+    }
+    for (size_t i = 0; i < of->whole->face_point_count; i++) {
+        of->face_points += of->keep[of->whole->face_point[i].particle] == PART ? 1 : 0;
     }
 }
 
@@ -154,9 +173,8 @@ static bool reserve(const struct cutting *of, struct solver_cloud *part, struct 
            solver_alloc((void **)&part->V, part->count, sizeof(double), "particle volumes", error) &&
            solver_alloc((void **)&part->tags, part->count, sizeof(uint32_t), "particle tags", error) &&
            solver_alloc((void **)&part->image, part->wall_count, sizeof(uint32_t), "mirror images", error) &&
-           solver_alloc((void **)&part->cell, of->whole->cell_count << dim, sizeof(uint32_t), "cells", error) &&
-           solver_alloc((void **)&part->face_point, of->whole->face_point_count, sizeof *part->face_point,
-                        "face points", error) &&
+           solver_alloc((void **)&part->cell, of->cells << dim, sizeof(uint32_t), "cells", error) &&
+           solver_alloc((void **)&part->face_point, of->face_points, sizeof *part->face_point, "face points", error) &&
            solver_alloc((void **)&symmetry->across, part->wall_count, sizeof(uint8_t), "mirror images", error) &&
            solver_alloc((void **)&symmetry->halves, part->count, sizeof(uint8_t), "symmetry", error) &&
            solver_alloc((void **)&symmetry->from, part->count, sizeof(uint32_t), "symmetry", error);
@@ -196,13 +214,12 @@ static void take_surface(const struct cutting *of, struct solver_cloud *part, co
 {
     size_t corners = (size_t)1 << part->dim;
     for (size_t c = 0; c < of->whole->cell_count; c++) {
-        const uint32_t *cell = of->whole->cell + c * corners;
-        bool inside = true;
-        for (size_t k = 0; k < corners; k++) {
-            inside = inside && of->keep[cell[k]] == PART;
-            part->cell[part->cell_count * corners + k] = to[cell[k]];
+        if (has_cell(of, c)) {
+            for (size_t k = 0; k < corners; k++) {
+                part->cell[part->cell_count * corners + k] = to[of->whole->cell[c * corners + k]];
+            }
+            part->cell_count++;
         }
-        part->cell_count += inside ? 1 : 0;
     }
     for (size_t i = 0; i < of->whole->face_point_count; i++) {
         struct solver_face_point point = of->whole->face_point[i];
@@ -256,6 +273,25 @@ bool solver_symmetry_cut(struct solver_cloud *whole, const struct solver_shape *
     return done;
 }
 
+void solver_symmetry_arrays(const struct solver_cloud *part, struct solver_cost_arrays *arrays)
+{
+    static const char group[] = "symmetry";
+    const struct solver_symmetry *symmetry = part->symmetry;
+    if (symmetry != NULL) {
+        solver_cost_array(arrays, group, "planes crossed", symmetry->across, part->wall_count, sizeof(uint8_t));
+        solver_cost_array(arrays, group, "halvings", symmetry->halves, part->count, sizeof(uint8_t));
+        solver_cost_array(arrays, group, "particles of the whole", symmetry->from, part->count, sizeof(uint32_t));
+        solver_cost_array(arrays, group, "itself", symmetry, 1, sizeof *symmetry);
+    }
+}
+
+void solver_symmetry_terms(const struct solver_cloud *part, struct solver_cost_terms *terms)
+{
+    if (part->symmetry != NULL) { /* places alone: signs are free */
+        solver_cost_term(terms, "mirror images", 0, (double)part->wall_count * part->dim);
+    }
+}
+
 void solver_symmetry_free(struct solver_symmetry *symmetry)
 {
     if (symmetry != NULL) {
@@ -299,6 +335,7 @@ static bool count_pairs(const struct solver_stencil *whole, const struct solver_
 {
     size_t body = part->count - part->wall_count;
     graph->count = part->count;
+    graph->row_room = part->count + 1;
     if (!solver_alloc((void **)&graph->row, part->count + 1, sizeof *graph->row, "rows of neighbours", error)) {
         return false;
     }
@@ -311,7 +348,8 @@ static bool count_pairs(const struct solver_stencil *whole, const struct solver_
         }
         graph->row[a + 1] = graph->row[a] + (complete ? whole->graph.row[from + 1] - whole->graph.row[from] : 0);
     }
-    return solver_alloc((void **)&graph->neighbour, graph->row[part->count], sizeof *graph->neighbour, "neighbours",
+    graph->neighbour_room = graph->row[part->count];
+    return solver_alloc((void **)&graph->neighbour, graph->neighbour_room, sizeof *graph->neighbour, "neighbours",
                         error);
 }
 

@@ -10,6 +10,7 @@
 #define SOLVER_SYMMETRY_H
 
 #include "solver/cloud.h"
+#include "solver/cost.h"
 #include "solver/state.h"
 #include "solver/stencil.h"
 
@@ -31,6 +32,9 @@ bool solver_symmetry_keep(struct solver_stencil *whole, const struct solver_clou
                           struct solver_error *error);
 /* Writes all evolved fields of images. */
 void solver_symmetry_reflect(const struct solver_cloud *part, struct solver_state *state);
+/* Of what is no symmetric part, nothing. The arrays of its cloud and its stencil are theirs to declare. */
+void solver_symmetry_arrays(const struct solver_cloud *part, struct solver_cost_arrays *arrays);
+void solver_symmetry_terms(const struct solver_cloud *part, struct solver_cost_terms *terms);
 void solver_symmetry_free(struct solver_symmetry *symmetry);
 
 #endif

@@ -469,6 +469,16 @@ static void rate_terms(const struct solver_upwind *work, size_t count, struct so
     }
 }
 
+/* What a particle's dissipation takes, and dW/dJ, a difference of two energies, for that of J. */
+static double flops_of_lost(const struct solver_upwind *work)
+{
+    const struct solver_material *material = work->material;
+    double energy = work->flown != NULL ? material->flow->energy_flops : material->energy_flops;
+    double linear = work->frozen ? 2.0 * FLOPS_TENSOR + FLOPS_TENSOR_CROSS + FLOPS_TRACE + 1.0 : 0.0;
+    double by_J = FLOPS_COFACTOR + FLOPS_DETERMINANT + linear + 2.0 * energy + 6.0;
+    return FLOPS_DOT + 3.0 + (work->evolves_J ? by_J + 2.0 : 0.0);
+}
+
 static void particle_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
 {
     double particles = (double)count;
@@ -489,6 +499,9 @@ static void particle_terms(const struct solver_upwind *work, size_t count, struc
     }
     if (work->pressure != NULL) {
         solver_cost_term(terms, "U'(J)", 0, particles * material->volumetric_flops);
+    }
+    if (work->lost != NULL) {
+        solver_cost_term(terms, "power lost", 0, particles * flops_of_lost(work));
     }
     solver_cost_term(terms, flows ? "stress and plastic flow" : "stress", 0, particles * stress);
     solver_cost_once(terms, "length of the step", particles * fastest);

@@ -316,13 +316,16 @@ bool solver_wall_keep(struct solver_wall *wall, struct solver_keeper *keeper, st
 void solver_wall_arrays(const struct solver_wall *wall, size_t particles, struct solver_cost_arrays *arrays)
 {
     solver_cost_array(arrays, "wall", "places that may meet it", wall->site, particles, sizeof *wall->site);
+    solver_cost_array(arrays, "wall", "pieces of paths", wall->die.piece, wall->die.room, sizeof *wall->die.piece);
 }
 
-/* Where there is one plane: paths are looked up, and asked at the particles near them alone. */
+/* All pieces of paths are looked at; what is stopped by them, near them alone, is not counted. */
 void solver_wall_terms(const struct solver_wall *wall, int stages, struct solver_cost_terms *terms)
 {
     double dim = (double)wall->dim;
+    double sites = (double)wall->count;
     double account = wall->accounted ? 11.0 * dim : 0.0;
-    solver_cost_once(terms, "wall",
-                     (double)wall->count * (3.0 * dim + 1.0 + (1.0 + (double)stages) * 4.0 * dim + account));
+    double plane = wall->plane ? 3.0 * dim + 1.0 + (1.0 + (double)stages) * 4.0 * dim : 0.0;
+    solver_cost_once(terms, "wall", sites * (plane + account));
+    solver_cost_once(terms, "walls by paths", sites * (double)wall->die.count * (SOLVER_COST_FUNCTION + 14.0));
 }

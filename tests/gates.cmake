@@ -315,6 +315,14 @@ assay_test(gate-swinging-cube-incompressible LABELS gate COMMAND $<TARGET_FILE:a
   --set stencil=sbp2 ${rk2} --out gates/swinging-cube-incompressible)
 assay_test(gate-swinging-cube-incompressible-sbp4 LABELS gate slow COMMAND $<TARGET_FILE:assay> verify swinging-cube
   ${s_wave} --out gates/swinging-cube-incompressible-sbp4)
+# The tube at n = 8; and at n = 8 and 16, with orders. Without what gives volumes back, they stray.
+assay_test(gate-tube-oscillation LABELS gate COMMAND $<TARGET_FILE:assay> verify tube-oscillation --levels 8
+  --out gates/tube-oscillation)
+assay_test(gate-tube-oscillation-fine LABELS gate slow COMMAND $<TARGET_FILE:assay> verify tube-oscillation
+  --out gates/tube-oscillation-fine)
+assay_test(gate-tube-oscillation-sees-volumes LABELS gate mustfail COMMAND ${fails} "<= 0.00033      [-]  FAIL"
+  $<TARGET_FILE:assay> verify tube-oscillation --levels 8 --set incompressible.restore=0 --set t_end=0.04
+  --out gates/tube-oscillation-volumes)
 # The bending column: at n = 8, which takes a minute, clumping 0.709 and checkerboard 0.016; with sbp2 0.491.
 assay_test(gate-bending-column LABELS gate COMMAND $<TARGET_FILE:assay> verify bending-column --levels 4 --set t_end=0.1
   --out gates/bending-column)

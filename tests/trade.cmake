@@ -14,6 +14,14 @@ set_tests_properties(trade-study PROPERTIES FIXTURES_SETUP trade)
 assay_test(trade-variants LABELS gate COMMAND ${trade} study ${assay} test-out/trade-variants 12
   ${CMAKE_CURRENT_LIST_DIR}/scenes/whole-cube.lua --set scheme=upwind --set precision=double --vary stencil=sbp2,closed
   --vary support=2 --vary integrator=tvd-rk2 --vary cfl=0.3 --budget 100)
+# A quarter by symmetry, and keys of incompressible bodies.
+assay_test(trade-symmetry LABELS gate COMMAND ${trade} study ${assay} test-out/trade-symmetry 2 breathing-cylinder
+  --set scheme=upwind --set evolved=pF --set precision=double --levels 8,16 --vary stencil=closed --vary support=2
+  --vary integrator=rk4 --vary cfl=0.4 --budget 100)
+assay_test(trade-incompressible LABELS gate COMMAND ${trade} study ${assay} test-out/trade-incompressible 3
+  manufactured-isochoric --set scheme=upwind --set evolved=pFHJ --set precision=double --levels 8,12 --set material.nu=0.5
+  --set incompressible.solver=poisson --vary incompressible.restore=0,0.1 --vary stencil=sbp2 --vary support=2
+  --vary integrator=tvd-rk2 --vary cfl=0.3 --budget 100)
 # Every key that is varied unless something else is said, cut short by the budget: nothing is left for n = 80.
 assay_test(trade-cut LABELS gate COMMAND ${cli} 0 "the budget was spent before its turn" ${assay} trade plastic-wave
   --levels 20,40,80 --budget 0.01 --out test-out/trade-cut)

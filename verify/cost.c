@@ -10,6 +10,11 @@
 #include <math.h>
 #include <string.h>
 
+static bool is_incompressible(const struct solver_scene *scene)
+{
+    return scene->incompressible.solver != SOLVER_PRESSURE_NONE;
+}
+
 static bool evolves_H(const struct solver_scene *scene)
 {
     return verify_has_stencil(scene) && scene->evolved == SOLVER_PFHJ;
@@ -17,7 +22,7 @@ static bool evolves_H(const struct solver_scene *scene)
 
 static bool evolves_J(const struct solver_scene *scene)
 {
-    return verify_has_stencil(scene) && scene->evolved != SOLVER_PF;
+    return verify_has_stencil(scene) && scene->evolved != SOLVER_PF && !is_incompressible(scene);
 }
 
 static bool reconstructs(const struct solver_scene *scene)
@@ -38,6 +43,16 @@ static bool is_composite(const struct solver_scene *scene)
 static bool projects(const struct solver_scene *scene)
 {
     return strcmp(scene->angular_momentum, "projected") == 0;
+}
+
+static bool gives_volumes_back(const struct solver_scene *scene)
+{
+    return is_incompressible(scene) && scene->incompressible.restore > 0.0;
+}
+
+static bool balances(const struct solver_scene *scene)
+{
+    return scene->balance;
 }
 
 static bool has_contact(const struct solver_scene *scene)
@@ -96,6 +111,9 @@ static const struct {
      solver_scene_flows},
     {"composite constants", NULL, is_composite},
     {"angular momentum", "angular_momentum=free", projects},
+    {"pressure in place of J", "incompressible.solver=none material.nu=0.499", is_incompressible},
+    {"volumes given back", "incompressible.restore=0", gives_volumes_back},
+    {"energy balance", "balance=false", balances},
     {"contact", "contact.law=none", has_contact},
     {"corrected gradients", "ulsph.gradient=plain", corrects},
     {"dissipation", "ulsph.dissipation=none", dissipates},
@@ -120,6 +138,13 @@ static bool open_with(const struct verify_options *options, const char *words, c
     return verify_scene_open(&with, 0, scene, error);
 }
 
+static void declare_operations(const struct solver_run *run, struct verify_cost_case *of)
+{
+    struct solver_cost_arrays arrays;
+    solver_run_cost(run, &arrays, &of->terms);
+    of->flops = solver_cost_flops(&of->terms, of->stages) / (double)of->facts.particles;
+}
+
 /* Of a run as it is built. */
 static void declare(const struct solver_run *run, const struct solver_scene *scene, struct verify_cost_case *of)
 {
@@ -141,6 +166,7 @@ static void measure(struct solver_scene *scene, struct verify_cost_case *of, str
         declare(*run, scene, of);
         of->runs = verify_time_steps(*run, &seconds, &of->why);
         of->seconds = of->runs ? seconds / (double)of->facts.particles : NAN;
+        declare_operations(*run, of); /* iterations are now known */
     }
 }
 

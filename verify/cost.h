@@ -25,7 +25,7 @@ struct verify_cost_item {
     double beside; /* seconds of the whole scene's particle and step, timed just before */
 };
 
-enum { VERIFY_COST_ITEMS = 16 };
+enum { VERIFY_COST_ITEMS = 24 };
 
 struct verify_cost {
     struct solver_scene *scene;

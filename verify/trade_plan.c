@@ -56,6 +56,15 @@ static bool matters(const struct choice *choice, const char *key)
     return key[prefix] == '\0' || (strlen(name) == prefix && strncmp(name, key, prefix) == 0);
 }
 
+/* The same of keys of incompressible bodies: all but the solver itself need one. */
+static bool matters_to_pressure(const struct choice *choice, const char *key)
+{
+    char scheme[SOLVER_TEXT], solver[SOLVER_TEXT];
+    value_of(choice, "scheme", scheme);
+    value_of(choice, "incompressible.solver", solver);
+    return strcmp(scheme, "upwind") == 0 && (strcmp(key, "incompressible.solver") == 0 || strcmp(solver, "none") != 0);
+}
+
 /* The words of a choice, and in how many it differs from the scene's own. */
 static bool spell(const struct choice *choice, struct verify_trade_run *run)
 {
@@ -63,7 +72,8 @@ static bool spell(const struct choice *choice, struct verify_trade_run *run)
     run->words[0] = '\0';
     for (size_t i = 0; i < choice->trade->axis_count && used < VERIFY_TRADE_WORDS; i++) {
         const char *key = choice->trade->axis[i].key;
-        if (matters(choice, key)) {
+        bool of_pressure = strncmp(key, "incompressible.", 15) == 0;
+        if (of_pressure ? matters_to_pressure(choice, key) : matters(choice, key)) {
             char own[SOLVER_TEXT] = "", value[SOLVER_TEXT];
             (void)solver_scene_text(choice->scene, key, own, sizeof own);
             value_of(choice, key, value);

@@ -1,5 +1,8 @@
 /* What the loops declare to compute (cost.h) against what a program computes in which every operation is counted. */
 #include "solver/integrator.h"
+#include "solver/pressure.h"
+#include "solver/run_internal.h"
+#include "solver/scheme_upwind.h"
 #include "tests/unit/runs.h"
 
 /* What a step does once, whatever the number of particles, as times of stages: less than one operation of each particle
@@ -14,6 +17,15 @@ struct slack {
 };
 static const struct slack exact = {OF_A_STEP, 0.0};
 
+/* Iterations of the pressure from here on. */
+static void expect_iterations_anew(const struct sample *sample)
+{
+    if (sample->scene->incompressible.solver != SOLVER_PRESSURE_NONE) {
+        struct solver_upwind_system *system = sample->run->system;
+        system->pressure->iterations = system->pressure->solved = 0;
+    }
+}
+
 static void expect_in(int dim, const char *more, const char *words, struct slack slack)
 {
     static struct solver_cost_arrays arrays;
@@ -21,6 +33,7 @@ static void expect_in(int dim, const char *more, const char *words, struct slack
     struct sample sample = start(more, "dim=%d n=%d %s", dim, cells[dim], words);
     int stages = solver_integrator_find(sample.scene->integrator)->stages;
     advance(&sample, 1);
+    expect_iterations_anew(&sample);
     unsigned long before = counted;
     advance(&sample, STEPS);
     double found = (double)(counted - before) / STEPS;
@@ -125,6 +138,16 @@ static void test_wall(void)
     expect(flying, "evolved=pF integrator=rk4", exact);
 }
 
+/* An arc takes a few more than a straight piece. */
+static void test_die(void)
+{
+    static const struct slack varied = {OF_A_STEP, 0.01};
+    static const char flying[] = "initial = { velocity = function() return 1e-3, 0 end }\n"
+                                 "die = { { path = { {-2, -1.5}, {0.5, -1.5}, {3, -2} }, fillets = {0.1} } }\n";
+    expect_in(2, flying, "evolved=pF", varied);
+    expect_in(2, flying, "evolved=pF balance=true", varied);
+}
+
 /* Two bodies within reach of each other that part: forces between them would be counted where they act. */
 static void test_contact(void)
 {
@@ -149,6 +172,8 @@ static void test_hencky(void)
     expect(metal, "evolved=pFHJ material.yield_stress=0 material.hardening=0", varied);
     expect(metal, "evolved=pF", varied);
     expect(metal, "evolved=pFHJ", varied);
+    expect(metal, "scheme=jst evolved=pFHJ", varied);
+    expect(metal, "scheme=jst evolved=pFHJ jst.kappa4_plastic=0 jst.plastic_at=0.1", varied);
 }
 
 /* Pairs of the list that are beyond reach count for nothing. */
@@ -172,6 +197,47 @@ static void test_ulsph(void)
     }
 }
 
+static void test_pressure(void)
+{
+    /* lengths and sums of each iteration; and the integrator's sums, where it has none. One operation of each particle
+     * and iteration would be 3900 and more. */
+    static const struct slack varied = {3000.0, 0.01};
+    static const char held[] =
+        "faces = { X0 = 'clamped' }\n"
+        "initial = { velocity = function(X, Y, Z) return first(0.1 * sin(X), 0.1 * X, 0) end }\n";
+    static const char *const words[] = {
+        "incompressible.solver=poisson",
+        "incompressible.solver=poisson evolved=pFJ incompressible.restore=0",
+        "incompressible.solver=poisson reconstruction=none integrator=rk4",
+        "incompressible.solver=poisson material.model=linear-elastic",
+        "incompressible.solver=poisson material.nu=0.49",
+        "incompressible.solver=pseudo-time incompressible.tolerance=1e-3",
+    };
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        char text[160];
+        (void)snprintf(text, sizeof text, "%s%s", strstr(words[i], "nu=") ? "" : "material.nu=0.5 ", words[i]);
+        expect_in(2, held, text, varied);
+        expect_in(3, held, text, varied);
+    }
+}
+
+static void test_balance(void)
+{
+    expect(smooth_motion, "evolved=pF balance=true", exact);
+    expect(smooth_motion, "evolved=pFHJ balance=true", exact);
+    expect(smooth_motion, "scheme=jst evolved=pFHJ balance=true", exact);
+}
+
+/* Images are evaluated as particles are. */
+static void test_symmetry(void)
+{
+    static const char disc[] = "domain = { shape = 'disc', centre = {0, 0}, radius = 1, symmetry = { X = 0, Y = 0 } }\n"
+                               "initial = { velocity = function(X, Y) return 0.1 * X, 0.1 * Y end }\n";
+    static const struct slack varied = {OF_A_STEP, 0.04}; /* the state of images is not integrated */
+    expect_in(2, disc, "stencil=sph evolved=pFHJ n=12", varied);
+    expect_in(2, disc, "scheme=jst stencil=sph evolved=pFHJ n=12", varied);
+}
+
 static const struct unit_test tests[] = {
     {"upwind", test_upwind},
     {"jst", test_jst},
@@ -179,9 +245,13 @@ static const struct unit_test tests[] = {
     {"faces and loads", test_boundary},
     {"angular momentum", test_angular_momentum},
     {"wall", test_wall},
+    {"walls by paths", test_die},
     {"contact", test_contact},
     {"Hencky's material, elastic and plastic", test_hencky},
     {"ulsph", test_ulsph},
+    {"pressure of incompressible bodies", test_pressure},
+    {"balance", test_balance},
+    {"symmetry", test_symmetry},
 };
 
 int main(void)

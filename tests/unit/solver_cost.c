@@ -164,6 +164,52 @@ static const char walled[] = "initial = { velocity = function() return first(-1e
 static const char touching[] = TWO "contact = { law = 'predicted' }\n";
 static const char apart[] = TWO;
 
+static const char quarter[] = "domain = { shape = 'disc', centre = {0, 0}, radius = 1, symmetry = { X = 0, Y = 0 } }\n"
+                              "initial = { velocity = function(X, Y) return 0.01 * X, 0.01 * Y end }\n";
+/* A disc of a lattice, and what its cloud is worth. */
+static const char cut[] = "domain = { shape = 'solid', lower = {-1.25, -1.25}, upper = {1.25, 1.25},\n"
+                          "           distance = function(X, Y) return math.sqrt(X * X + Y * Y) - 1 end }\n"
+                          "reference_length = 1\n"
+                          "initial = { velocity = function(X, Y) return 0.01 * X, 0.01 * Y end }\n";
+static const char cut_quarter[] =
+    "domain = { shape = 'solid', lower = {-1.25, -1.25}, upper = {1.25, 1.25}, symmetry = { X = 0, Y = 0 },\n"
+    "           distance = function(X, Y) return math.sqrt(X * X + Y * Y) - 1 end }\n"
+    "reference_length = 1\n"
+    "initial = { velocity = function(X, Y) return 0.01 * X, 0.01 * Y end }\n";
+/* Between two walls, the lower one with a corner. */
+static const char die[] = "initial = { velocity = function(X, Y) return -1e-3, 0 end }\n"
+                          "die = { { path = { {-2, -0.5}, {-0.1, -0.5}, {3, -1} }, fillets = {0.1} },\n"
+                          "        { path = { {3, 2}, {-2, 2} } } }\n";
+
+static void memory_of_what_few_scenes_ask_for(void)
+{
+    static const char *const solvers[] = {"poisson", "pseudo-time incompressible.tolerance=1e-4"};
+    static const char *const sets[] = {"pFJ", "pFHJ"};
+    for (int dim = 1; dim <= 3; dim++) {
+        for (size_t i = 0; i < 2; i++) {
+            expect_memory(smooth_motion, "dim=%d evolved=%s material.nu=0.5 incompressible.solver=%s", dim, sets[i],
+                          solvers[0]);
+            expect_memory(smooth_motion, "dim=%d material.nu=0.49 incompressible.solver=%s", dim, solvers[i]);
+            expect_memory(
+                smooth_motion,
+                "dim=%d material.nu=0.5 reconstruction=none incompressible.restore=0 incompressible.solver=%s", dim,
+                solvers[i]);
+            expect_memory(smooth_motion, "dim=%d evolved=%s balance=true", dim, sets[i]);
+        }
+        expect_memory(walled, "dim=%d balance=true", dim);
+        expect_memory(metal, "dim=%d scheme=jst jst.kappa4_plastic=0 jst.plastic_at=0.1", dim);
+    }
+    static const char *const shapes[] = {quarter, cut, cut_quarter};
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+        expect_memory(shapes[i], "dim=2 n=8 stencil=closed support=2.2 integrator=rk4");
+        expect_memory(shapes[i], "dim=2 n=8 stencil=closed support=2.2 integrator=rk4 scheme=jst evolved=pF");
+    }
+    expect_memory(quarter, "dim=2 n=8 stencil=closed support=2.2 reconstruction=least-squares");
+    expect_memory(quarter, "dim=2 n=8 stencil=closed support=2.2 balance=true");
+    expect_memory(die, "dim=2");
+    expect_memory(die, "dim=2 balance=true scheme=jst");
+}
+
 static void memory_is_as_declared(void)
 {
     static const char *const schemes[] = {"scheme=upwind", "scheme=jst", "scheme=jst jst.kappa2=0.5"};
@@ -243,6 +289,17 @@ static void what_is_asked_for_costs(void)
         expect_order("2D < 3D", cost_of(smooth_motion, words[0]), cost_of(smooth_motion, words[1]));
     }
     expect_order("no contact < contact", cost_of(apart, "stencil=sph"), cost_of(touching, "stencil=sph"));
+    expect_order("compressible < incompressible", cost_of(smooth_motion, "material.nu=0.49"),
+                 cost_of(smooth_motion, "material.nu=0.49 incompressible.solver=poisson"));
+    expect_order("volumes left < given back",
+                 cost_of(smooth_motion, "material.nu=0.5 incompressible.solver=poisson incompressible.restore=0"),
+                 cost_of(smooth_motion, "material.nu=0.5 incompressible.solver=poisson"));
+    expect_order("no balance < balance", cost_of(smooth_motion, ""), cost_of(smooth_motion, "balance=true"));
+    expect_order("no balance < balance", cost_of(smooth_motion, "scheme=jst"),
+                 cost_of(smooth_motion, "scheme=jst balance=true"));
+    expect_order("no wall < walls by paths", cost_of(smooth_motion, "dim=2"), cost_of(die, "dim=2"));
+    CU_ASSERT(cost_of(metal, "scheme=jst").flops <
+              cost_of(metal, "scheme=jst jst.kappa4_plastic=0 jst.plastic_at=0.1").flops);
     expect_order("free < projected", cost_of(smooth_motion, "dim=3"),
                  cost_of(smooth_motion, "angular_momentum=projected"));
     expect_order("stencil's slopes < least squares", cost_of(smooth_motion, "stencil=sph"),
@@ -256,6 +313,7 @@ static void what_is_asked_for_costs(void)
 
 static const struct unit_test tests[] = {
     {"what is allocated is what is declared", memory_is_as_declared},
+    {"so it is of what few scenes ask for", memory_of_what_few_scenes_ask_for},
     {"what is asked for costs, and nothing else", what_is_asked_for_costs},
 };
 

@@ -264,6 +264,9 @@ static void what_cannot_be_is_refused(void)
     struct solver_error error =
         refusal("rigid_wall = { point = {-1, 0}, normal = {1, 0} }\n", "%s dim=2 n=6", incompressible);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "take no rigid_wall"));
+    error = refusal("domain = { shape = 'disc', centre = {0, 0}, radius = 0.5, symmetry = { X = 0 } }\n",
+                    "%s dim=2 n=6 stencil=closed", incompressible);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "without domain.symmetry"));
     error = refusal("material = { model = 'neo-hookean', E = 1, nu = 0.5, rho = 1, at = function(X, Y, Z) return 1, "
                     "0.49, 1 end }\n",
                     "dim=2 incompressible.solver=poisson");

@@ -39,6 +39,7 @@ end
 initial = { from = "oracle" }
 
 oracle = { name = "breathing-cylinder" }
+if cut == 0 and scheme ~= "ulsph" then trade = { quarter = { quarter = 1 } } end
 probes = { { name = "surface", X = {cut == 0 and domain.radius or R, 0} } }
 figures = { period = { measure = "period", probe = "surface" } }
 

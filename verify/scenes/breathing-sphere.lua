@@ -35,6 +35,7 @@ stencil, support, integrator, cfl = "closed", cut == 0 and 1.6 or 2.2, "rk4", 0.
 initial = { from = "oracle" }
 
 oracle = { name = "breathing-sphere" }
+if cut == 0 then trade = { eighth = { eighth = 1 } } end
 probes = { { name = "surface", X = {cut == 0 and domain.radius or R, 0, 0} } }
 figures = { period = { measure = "period", probe = "surface" } }
 
