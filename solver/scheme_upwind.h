@@ -47,6 +47,12 @@ double solver_upwind_energy(const void *of, size_t a);
 double solver_upwind_dissipated(const void *of, size_t a);
 double solver_upwind_lost(const void *of);
 
+/* What particle a remembers; NULL: nothing is plastic. */
+static inline const double *solver_upwind_memory(const struct solver_upwind *work, size_t a)
+{
+    return work->flown != NULL ? work->flown + a * work->material->flow->width : NULL;
+}
+
 /* clang-format off */
 /* Rows of a scheme's choices: the evolved sets. */
 #define SOLVER_UPWIND_EVOLVED                                                                                          \

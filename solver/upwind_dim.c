@@ -1,8 +1,8 @@
 #include "solver/upwind.h"
 
-#include "solver/dim_flops.h"
 #include "solver/dim_pairs.h"
 #include "solver/dim_sums.h"
+#include "solver/dim_upwind_terms.h"
 
 #include <math.h>
 
@@ -410,103 +410,6 @@ static void measures(bool linear, size_t begin, size_t end, const double *F, dou
             J[a] = jacobian;
         }
     }
-}
-
-/* --- operations (cost.h) --- */
-
-enum { JOIN = FLOPS_TENSOR + LANES }; /* of the sums over every other neighbour */
-
-static void gradient_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
-{
-    double pairs = (double)work->row[count];
-    double particles = (double)count;
-    double of_vector = pairs * (LANES + FLOPS_ADD_SCALED) + particles * JOIN;
-    bool own = work->least_squares != NULL;
-    solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (2.0 + FLOPS_TENSOR));
-    if (work->v_gradient != NULL) {
-        solver_cost_term(terms, "gradient of v by least squares", 1, of_vector);
-    }
-    if (work->pressure_gradient != NULL) {
-        solver_cost_term(terms, own ? "gradient of U'(J) by least squares" : "gradient of U'(J)", 1,
-                         pairs * (1.0 + 2.0 * LANES) + (own ? 0.0 : particles * LANES));
-    }
-    if (work->P_gradient != NULL) {
-        solver_cost_term(terms, own ? "gradient of P by least squares" : "gradient of P", 1,
-                         pairs * DIM * (LANES + FLOPS_ADD_SCALED) +
-                             particles * (DIM * FLOPS_TENSOR + (own ? 0.0 : 1.0)));
-    }
-}
-
-/* Whether pairs have a turned area: else n = N. */
-static bool turns(const struct solver_upwind *work)
-{
-    return work->evolves_J && (!work->frozen || work->whole_jump);
-}
-
-static void volume_terms(const struct solver_upwind *work, double pairs, struct solver_cost_terms *terms)
-{
-    double area = (work->frozen ? 0.0 : 4.0 * FLOPS_TENSOR) + FLOPS_SPREAD_DOTS + 5.0 * LANES;
-    double jump = work->whole_jump ? 3.0 * FLOPS_TENSOR + FLOPS_DOT + 2.0 : 3.0;
-    double slope = work->whole_jump ? DIM * (3.0 * FLOPS_TENSOR + DIM) : 4.0 * LANES;
-    solver_cost_term(terms, "dissipation of J", 2, pairs * ((turns(work) ? area : 0.0) + jump));
-    solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? pairs * slope : 0.0);
-}
-
-static void rate_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
-{
-    double pairs = (double)work->row[count];
-    double particles = (double)count;
-    double vectors = 2.0 + (work->X != NULL ? 1.0 : 0.0) + (work->frozen ? 0.0 : 1.0); /* jump, back, distance, along */
-    double flux = FLOPS_SPREAD_DOTS + (turns(work) ? 5.0 : 6.0) * LANES;
-    double sum = (work->stride != 0 ? LANES : 3.0 * LANES + 1.0) + 2.0 * DIM;
-    solver_cost_term(terms, "internal force", 2, pairs * FLOPS_ADD_SCALED + particles * (DIM - 1) * LANES);
-    solver_cost_term(terms, "dissipation of p", 2, pairs * (vectors * LANES + flux) + particles * sum);
-    solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * 3.0 * FLOPS_TENSOR : 0.0);
-    solver_cost_term(terms, "impedances where materials meet", 2,
-                     work->stride != 0 ? pairs * (9.0 + 2.0 * LANES) : 0.0);
-    if (work->evolves_J) {
-        volume_terms(work, pairs, terms);
-    }
-}
-
-/* What a particle's dissipation takes, and dW/dJ, a difference of two energies, for that of J. */
-static double flops_of_lost(const struct solver_upwind *work)
-{
-    const struct solver_material *material = work->material;
-    double energy = work->flown != NULL ? material->flow->energy_flops : material->energy_flops;
-    double linear = work->frozen ? 2.0 * FLOPS_TENSOR + FLOPS_TENSOR_CROSS + FLOPS_TRACE + 1.0 : 0.0;
-    double by_J = FLOPS_COFACTOR + FLOPS_DETERMINANT + linear + 2.0 * energy + 6.0;
-    return FLOPS_DOT + 3.0 + (work->evolves_J ? by_J + 2.0 : 0.0);
-}
-
-static void particle_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
-{
-    double particles = (double)count;
-    const struct solver_material *material = work->material;
-    bool cofactor = work->cofactor != NULL;
-    bool flows = work->flown != NULL;
-    int stress = flows ? material->flow->stress_flops(cofactor, work->J != NULL)
-                       : material->stress_flops(cofactor, work->J != NULL);
-    int fastest = flows ? material->flow->fastest_flops : material->fastest_flops;
-    solver_cost_term(terms, "rate of v", 0, particles * (3.0 + FLOPS_ADD_SCALED + 2.0 * LANES));
-    if (work->evolves_J) {
-        solver_cost_term(terms, "rate of J", 0, particles * (4.0 + (work->frozen ? FLOPS_TRACE : FLOPS_CONTRACT)));
-    }
-    if (work->evolves_H) {
-        solver_cost_term(terms, "rate of H", 0, particles * FLOPS_TENSOR_CROSS);
-    } else if (cofactor) {
-        solver_cost_term(terms, "cofactor of F", 0, particles * FLOPS_COFACTOR);
-    }
-    if (work->pressure != NULL) {
-        solver_cost_term(terms, "U'(J)", 0, particles * material->volumetric_flops);
-    }
-    if (work->lost != NULL) {
-        solver_cost_term(terms, "power lost", 0, particles * flops_of_lost(work));
-    }
-    solver_cost_term(terms, flows ? "stress and plastic flow" : "stress", 0, particles * stress);
-    solver_cost_once(terms, "length of the step", particles * fastest);
-    solver_cost_once(terms, "whether the state is whole",
-                     particles * (FLOPS_DOT + FLOPS_CONTRACT + (work->J != NULL ? 0.0 : FLOPS_DETERMINANT)));
 }
 
 const struct solver_upwind_loops DIM_NAME(solver_upwind) = {

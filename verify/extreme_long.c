@@ -111,7 +111,7 @@ static bool vibrate(const struct verify_extremes *in, const char *what, const ch
         return false;
     }
     double c = solver_material_constants(trial.scene->E, trial.scene->nu, trial.scene->rho).cp;
-    double v, s, t, omega, first;
+    double v = 0.0, s = 0.0, t = 0.0, omega = 0.0, first = 0.0;
     bool ok = mode(&trial, c, &v, &s, &t, error);
     first = hypot(v, s);
     ok = ok && frequency(&trial, c, &omega, error);
