@@ -103,7 +103,7 @@ static void displace_drawn(const struct oracle_motion_shape *shape, int dim, con
     double L = shape->L;
     struct jet f = jet_scale(shape->amplitude / shape->period, t, 0.25 * shape->amplitude);
     struct jet x[3] = {X[0], X[1], X[2]};
-    for (int i = 0; i < dim; i++) {
+    for (int i = 0; i < dim && i < 3; i++) {
         struct jet power = jet_scale(share[i], f, 1.0);
         struct jet of_place = jet_exp(jet_multiply(power, jet_log(jet_scale(1.0 / L, X[i], 1.5))));
         struct jet of_end = jet_exp(jet_scale(log(1.5), power, 0.0));

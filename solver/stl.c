@@ -236,7 +236,7 @@ bool solver_stl_read(const char *path, double scale, struct solver_stl **out, st
     unsigned char *bytes = NULL;
     size_t size = 0;
     *out = NULL;
-    bool good = read_file(path, &bytes, &size, error) &&
+    bool good = read_file(path, &bytes, &size, error) && bytes != NULL &&
                 solver_alloc((void **)out, 1, sizeof **out, "surface of triangles", error) &&
                 read_surface(path, scale, bytes, size, *out, error);
     free(bytes);

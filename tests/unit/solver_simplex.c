@@ -135,8 +135,8 @@ static void degenerate(void)
 {
     static const double corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int k = 0; k < 81; k++) {
-        const double value[4] = {(double)(k % 3 - 1), (double)(k / 3 % 3 - 1), (double)(k / 9 % 3 - 1),
-                                 (double)(k / 27 - 1)};
+        const int sign[4] = {k % 3 - 1, k / 3 % 3 - 1, k / 9 % 3 - 1, k / 27 - 1};
+        const double value[4] = {sign[0], sign[1], sign[2], sign[3]};
         struct simplices inside, cut;
         simplex_cut(4, corner, value, &inside, &cut);
         CU_ASSERT(measure_of(&inside) >= 0.0 && measure_of(&inside) <= 1.0 / 6.0 + 1e-15);
