@@ -165,7 +165,8 @@ static void give_back(const struct solver_pressure *of, double *out, size_t begi
     }
 }
 
-static void diffuse(const struct solver_pressure *of, const double *q, double eta, double *out, size_t begin, size_t end)
+static void diffuse(const struct solver_pressure *of, const double *q, double eta, double *out, size_t begin,
+                    size_t end)
 {
     const struct solver_upwind *work = of->work;
     for (size_t a = begin; a < end; a++) {
