@@ -13,5 +13,5 @@ export ASAN_OPTIONS=detect_stack_use_after_return=1:strict_string_checks=1 UBSAN
 # Without what takes minutes: the mutation suites, which run the self-check of the conformance suite again for each fault,
 # and the cantilever's own, some twenty eigenproblems as that suite solves one; nor the restarts of every scene, which
 # test_solver_checkpoint makes of small ones; nor hundreds of runs, or thousands of steps, of what other programs run
-# once (cost, slab, momentum, angular, affine), and the conformance of every oracle.
-exec ctest --test-dir "$build" -R '^(unit-|judge-malformed|restart-(full|refused|stopped))' -E 'oracles_(mutations|cantilever|conformance)|verify_checkpoint|solver_(cost|slab|affine|run_momentum|run_angular)' --output-on-failure --no-tests=error --parallel "$(nproc)"
+# once (slab, momentum, angular, affine), and the conformance of every oracle.
+exec ctest --test-dir "$build" -R '^(unit-|judge-malformed|restart-(full|refused|stopped))' -E 'oracles_(mutations|cantilever|conformance)|verify_checkpoint|solver_(slab|affine|run_momentum|run_angular)' --output-on-failure --no-tests=error --parallel "$(nproc)"

@@ -35,12 +35,22 @@ static void take(void *place, size_t bytes)
     }
 }
 
-/* A slot is kept, empty, so that those behind it are found. */
+/* Those behind it that were kept from its slot move up. */
 static void give(const void *place)
 {
     size_t at = find((uintptr_t)place);
-    live -= place != NULL ? slot[at].bytes : 0;
-    slot[at].bytes = 0;
+    if (place == NULL || slot[at].place == 0) {
+        return;
+    }
+    live -= slot[at].bytes;
+    for (size_t next = (at + 1) % SLOTS; slot[next].place != 0; next = (next + 1) % SLOTS) {
+        size_t home = (slot[next].place >> 4) % SLOTS;
+        if ((next + SLOTS - home) % SLOTS >= (next + SLOTS - at) % SLOTS) {
+            slot[at] = slot[next];
+            at = next;
+        }
+    }
+    slot[at].place = 0;
 }
 
 /* The names are the linker's. */
