@@ -249,11 +249,6 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
     /* per stage: the geometry in each pass; fields read by each, rates written; in the update state, start and rate
      * read, state and other fields written. The first stage writes the start instead of reading it. */
     double stage = passes * bytes + (passes + 1.0) * fields + 4.0 * evolved;
-    /* per stage and number that evolves: a multiply-add at first, later three, and the sum's where there is one */
-    double stages = run->integrator->stages;
-    double with_sum = run->integrator->needs_sum ? 3.0 * stages - 2.0 : 0.0;
-    double update = (2.0 + 5.0 * (stages - 1.0) + with_sum) * (double)run->state.evolved / count;
-    double flops = run->scheme->flops != NULL ? run->scheme->flops(run->system) : 0.0;
     double mass = 0.0;
     for (size_t a = 0; a < run->cloud->count; a++) {
         mass += geometry.V[a] * solver_run_density(run, a);
@@ -269,8 +264,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .seconds = run->seconds,
         .bytes_per_particle = state + bytes + composite,
         .state_bytes = fields,
-        .step_traffic = stages * stage,
-        .step_flops = flops > 0.0 ? stages * flops / count + update : 0.0,
+        .step_traffic = run->integrator->stages * stage,
         .stencil_residual = geometry.residual,
         .threads = run->threads,
     };

@@ -80,7 +80,6 @@ struct solver_facts {
     double state_bytes;        /* fields of the scheme alone, per particle */
     double step_traffic;       /* bytes that one particle's step moves if every array streams once per pass and
                                   neighbours are found in cache */
-    double step_flops;         /* floating-point operations of one particle's step; 0: not counted */
     double stencil_residual;   /* largest relative violation of closure and linear exactness; NAN: no stencil */
     int threads;
 };

@@ -108,9 +108,6 @@ struct solver_scheme {
     double (*lost)(const void *system);
     /* Plastic work per unit reference volume since the start [J/m^3]; NULL: the scheme knows no plastic flow. */
     double (*dissipated)(const void *system, size_t particle);
-    /* Floating-point operations of one evaluation, and of what follows from the state after it, of all particles,
-     * padding left out; 0, or NULL: not counted. */
-    double (*flops)(const void *system);
     /* What outlives a step and is not a field, for checkpoints (keep.h); NULL: there is nothing. */
     bool (*keep)(void *system, struct solver_keeper *keeper, struct solver_error *error);
 };

@@ -6,7 +6,6 @@
 #include "solver/pieces.h"
 #include "solver/pressure.h"
 #include "solver/symmetry.h"
-#include "solver/upwind_flops.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -318,13 +317,6 @@ static bool correct(void *of, const struct solver_state *state, const struct sol
     return true;
 }
 
-static double flops(const void *of)
-{
-    const struct solver_upwind_system *system = of;
-    const struct solver_stencil *stencil = system->stencil;
-    return solver_upwind_flops(&system->work, stencil->dim, stencil->count, stencil->pairs);
-}
-
 static bool keep(void *of, struct solver_keeper *keeper, struct solver_error *error)
 {
     struct solver_upwind_system *system = of;
@@ -408,7 +400,6 @@ const struct solver_scheme solver_scheme_upwind = {
     .geometry = solver_upwind_geometry,
     .fields = solver_upwind_fields,
     .correct = correct,
-    .flops = flops,
     .keep = keep,
     .iterations = iterations,
     .arrays = solver_upwind_arrays,

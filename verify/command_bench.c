@@ -7,6 +7,7 @@
 #include "verify/study.h"
 #include "verify/timing.h"
 
+#include "solver/cost.h"
 #include "solver/integrator.h"
 #include "solver/path.h"
 #include "solver/peak.h"
@@ -15,27 +16,40 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+/* Operations of one particle's step, as declared (cost.h); NaN if there is no memory for the list. */
+static double flops_of(const struct solver_run *run, int stages)
+{
+    struct solver_cost_arrays *arrays = calloc(1, sizeof *arrays);
+    struct solver_cost_terms *terms = calloc(1, sizeof *terms);
+    double flops = NAN;
+    if (arrays != NULL && terms != NULL) {
+        solver_run_cost(run, arrays, terms);
+        flops = solver_cost_flops(terms, stages) / (double)solver_run_facts(run).particles;
+    }
+    free(arrays);
+    free(terms);
+    return flops;
+}
+
 /* The line of a run that has been timed. */
-static void print_row(const struct solver_scene *scene, const struct solver_facts *facts, const char *stencil,
+static void print_row(const struct solver_run *run, const struct solver_facts *facts, int stages, const char *stencil,
                       const char *evolved, double seconds)
 {
     double particles = (double)facts->particles;
+    double flops = flops_of(run, stages);
     double neighbours = (double)facts->pairs / particles;
     double per_particle = seconds / particles;
     double bandwidth = verify_bandwidth(facts->bytes_per_particle * particles, facts->threads);
     double peak = verify_roof_flops(facts->threads);
-    double share = verify_roof_share(facts->step_flops, facts->step_traffic, per_particle, peak, bandwidth);
-    char flops[16] = "-";
-    if (facts->step_flops > 0.0) {
-        (void)snprintf(flops, sizeof flops, "%.0f", facts->step_flops);
-    }
-    (void)printf("%-8s %-6s %10zu %10.1f %7d %10.3g %10.1f %10.2f %8.0f %8.0f %8s %10.1f %10.1f %8.0f %%\n",
+    double share = verify_roof_share(flops, facts->step_traffic, per_particle, peak, bandwidth);
+    (void)printf("%-8s %-6s %10zu %10.1f %7d %10.3g %10.1f %10.2f %8.0f %8.0f %8.0f %10.1f %10.1f %8.0f %%\n",
                  stencil != NULL ? stencil : "-", evolved != NULL ? evolved : "-", facts->particles, neighbours,
                  facts->threads, facts->setup_seconds / (100.0 * seconds), 1e9 * per_particle,
-                 1e9 * per_particle / (neighbours * solver_integrator_find(scene->integrator)->stages),
-                 facts->bytes_per_particle, facts->step_traffic, flops, 1e-9 * bandwidth, 1e-9 * peak, 100.0 * share);
+                 1e9 * per_particle / (neighbours * stages), facts->bytes_per_particle, facts->step_traffic, flops,
+                 1e-9 * bandwidth, 1e-9 * peak, 100.0 * share);
     (void)fflush(stdout);
 }
 
@@ -57,7 +71,7 @@ static bool row(const struct verify_options *options, int n, const char *stencil
                 verify_time_steps(run, &seconds, error);
     if (done) {
         struct solver_facts facts = solver_run_facts(run);
-        print_row(scene, &facts, stencil, evolved, seconds);
+        print_row(run, &facts, solver_integrator_find(scene->integrator)->stages, stencil, evolved, seconds);
     }
     solver_run_free(run);
     solver_scene_free(scene);
@@ -97,9 +111,9 @@ static void print_foot(void)
         "of\n"
         "%d samples. ns/nb-rhs: the same per neighbour and right-hand side. B/part.: memory per particle. B moved: "
         "what\n"
-        "a particle's step moves if every array streams once per pass. flops: its floating-point operations, padding\n"
-        "left out. triad: bandwidth measured on arrays as large as the run's; Gflop/s: multiply-adds alone. of roof:\n"
-        "the time which the slower of traffic and operations takes at these rates, over the time measured.\n",
+        "a particle's step moves if every array streams once per pass. flops: its operations as assay cost declares\n"
+        "them. triad: bandwidth measured on arrays as large as the run's; Gflop/s: multiply-adds alone. of roof: the\n"
+        "time which the slower of traffic and operations takes at these rates, over the time measured.\n",
         VERIFY_SAMPLES);
 }
 
