@@ -35,7 +35,7 @@ gates = {
 
 view = {
     field = "plastic_strain", range = {0.15, 0.45}, bands = 12, -- -
-    frame = { -0.3 * L, 1.3 * L, -0.2 * L, 1.2 * L, 0, dim == 3 and L or 0 }, -- m
+    frame = { -0.6 * L, 1.7 * L, -0.2 * L, 1.2 * L, 0, dim == 3 and L or 0 }, -- m, as far as it is drawn
     direction = dim == 3 and {1, 0.8, 0.6} or {0, 0, 1}, up = dim == 3 and {0, 0, 1} or {0, 1, 0},
     magnify = 1, size = {900, 900},
 }
