@@ -291,6 +291,14 @@ assay_test(gate-twisting-column-sees-checkerboard LABELS gate mustfail COMMAND $
 assay_test(gate-twisting-column-sees-drift LABELS gate mustfail COMMAND ${fails} "<= 1e-10        [m]  FAIL"
   $<TARGET_FILE:assay> verify twisting-column --levels 6 --set stencil=closed --set perturb=0.1 --set t_end=0.01
   --out gates/twisting-column-drift)
+# Turned by little, its period is that of Saint-Venant's torsion, unless it is 3 % stiffer.
+set(torsion verify twisting-column --set Omega=0.5 --set t_end=0.75 --levels)
+assay_test(gate-twisting-column-torsion LABELS gate COMMAND $<TARGET_FILE:assay> ${torsion} 4
+  --out gates/twisting-column-torsion)
+assay_test(gate-twisting-column-torsion-fine LABELS gate slow COMMAND $<TARGET_FILE:assay> ${torsion} 6
+  --out gates/twisting-column-torsion-fine)
+assay_test(gate-twisting-column-sees-stiffness LABELS gate mustfail COMMAND ${fails} "<= 0.02         [-]  FAIL"
+  $<TARGET_FILE:assay> ${torsion} 4 --set material.E=17.5e6 --out gates/twisting-column-stiffness)
 # The incompressible column, its volumes, and what an iteration that is cut short says. As printed volumes stray.
 assay_test(gate-incompressible-column LABELS gate COMMAND $<TARGET_FILE:assay> verify incompressible-column --levels 4
   --out gates/incompressible-column)
@@ -328,6 +336,8 @@ assay_test(gate-bending-column LABELS gate COMMAND $<TARGET_FILE:assay> verify b
   --out gates/bending-column)
 assay_test(gate-bending-column-fine LABELS gate slow COMMAND $<TARGET_FILE:assay> verify bending-column
   --out gates/bending-column-fine)
+assay_test(gate-bending-column-period LABELS gate slow COMMAND $<TARGET_FILE:assay> verify bending-column --levels 6
+  --set V0=0.01 --set t_end=3.7 --out gates/bending-column-period)
 assay_test(gate-bending-column-sees-folds LABELS gate mustfail slow COMMAND ${fails} "FAIL: a gate does not hold"
   $<TARGET_FILE:assay> verify bending-column --levels 8 --set stencil=sbp2 --out gates/bending-column-folds)
 

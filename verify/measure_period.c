@@ -112,14 +112,25 @@ double verify_period_fit(size_t count, const double *time, const double *displac
     return fit(&motion);
 }
 
-bool verify_period(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
-                   struct solver_error *error)
+static bool period_of(const struct verify_measuring *in, size_t probe, double *value, struct solver_error *error)
 {
     struct verify_trace trace;
-    if (!verify_trace_take(in->history, argument[0].probe, &trace, error)) {
+    if (!verify_trace_take(in->history, probe, &trace, error)) {
         return false;
     }
     *value = verify_period_fit(trace.count, trace.time, trace.displacement);
     verify_trace_free(&trace);
     return true;
+}
+
+bool verify_period(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                   struct solver_error *error)
+{
+    return period_of(in, argument[0].probe, value, error);
+}
+
+bool verify_fundamental_period(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                               struct solver_error *error)
+{
+    return period_of(in, argument[1].probe, value, error);
 }

@@ -19,6 +19,13 @@ static const struct verify_measure measures[] = {
      .help = "of a probe's displacement, by a fit of a damped oscillation",
      .option = {{"probe", VERIFY_PROBE}},
      .measure = verify_period},
+    {.name = "fundamental period",
+     .help =
+         "of a probe's displacement, by the same fit, beside the `expected` one, of a theory that is no oracle here",
+     .option = {{"expected", VERIFY_NUMBER}, {"probe", VERIFY_PROBE}},
+     .expected = true,
+     .unit = "s",
+     .measure = verify_fundamental_period},
     {.name = "drift",
      .help = "largest distance of a probe, over time, from the line along the axis `across` on which it lay",
      .option = {{"probe", VERIFY_PROBE}, {"across", VERIFY_AXIS}},

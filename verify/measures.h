@@ -75,6 +75,8 @@ bool verify_body_velocity(const struct verify_measuring *in, const struct verify
                           struct solver_error *error);
 bool verify_period(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                    struct solver_error *error);
+bool verify_fundamental_period(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
+                               struct solver_error *error);
 
 /* Largest distance [m] of a probe from the line along an axis on which it lay. */
 bool verify_drift(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
