@@ -117,6 +117,7 @@ static void forge(const char *text, const char *old, const char *new)
 
 static void hostile(void)
 {
+    unit_untrapped();
     static const struct {
         const char *old, *new, *says;
     } bad[] = {
