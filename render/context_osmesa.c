@@ -9,7 +9,8 @@
 struct render_context {
     OSMesaContext mesa;
     uint8_t *pixels;
-    fenv_t before; /* OSMesa divides by zero as it likes: no floating-point traps in here, nor in threads that it makes */
+    fenv_t before; /* the floating-point environment of the program: OSMesa, which divides by zero as it likes, and the
+                      threads that it makes have one without traps */
 };
 
 bool render_context_open(int width, int height, struct render_context **context, char why[RENDER_WHY])

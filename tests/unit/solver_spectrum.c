@@ -47,8 +47,8 @@ static void stable_steps_are_the_known_limits(void)
     CU_ASSERT(isinf(solver_stable_step(solver_integrator_find("rk4"), &still, 1, 1e-12)));
 }
 
-/* Along a ray just right of the imaginary axis small steps grow, and larger ones do not: what grows at any shorter step is
- * not stable. */
+/* Along a ray just right of the imaginary axis small steps grow, and larger ones do not: what grows at any shorter step
+ * is not stable. */
 static void shorter_steps_must_hold_too(void)
 {
     const struct solver_integrator *integrator = solver_integrator_find("rk4");
