@@ -36,7 +36,7 @@ static struct waves waves(const struct theory *theory, double c)
     struct waves w = {.c = c, .b2 = 2 * c4 / (middle + sqrt(middle * middle - 4 * rs * c4))};
     w.evanesces = w.b2 * rs < 1;
     w.a = w.evanesces ? sqrt(w.b2 * (1 - w.b2 * rs)) / c : 0;
-    w.ga = w.a + w.b2 * theory->s2 / w.a;
+    w.ga = w.evanesces ? w.a + w.b2 * theory->s2 / w.a : 0;
     w.gc = c - w.b2 * theory->s2 / c;
     return w;
 }
@@ -45,7 +45,8 @@ static double characteristic(double c, void *context)
 {
     const struct waves w = waves(context, c);
     double q = w.c * w.gc / (w.a * w.ga);
-    return 2 / cosh(w.a) + cos(c) * (q + 1 / q) - (c / w.a - w.a / c) * tanh(w.a) * sin(c);
+    double fall = exp(-w.a); /* 2 / cosh(a), which overflows for slender beams */
+    return 4 * fall / (1 + fall * fall) + cos(c) * (q + 1 / q) - (c / w.a - w.a / c) * tanh(w.a) * sin(c);
 }
 
 /* The shape with clamp and free shear force: C = -A, D = -(ga / gc) B, and B / A = -R, where 1 - R = G exp(-a) is

@@ -85,7 +85,7 @@ bool oracle_create(const struct oracle_kind *kind, const double *value, struct o
 
 bool oracle_law_holds(const struct oracle_check *line)
 {
-    return line->residual <= line->bound;
+    return islessequal(line->residual, line->bound); /* not so if it is no number */
 }
 
 bool oracle_self_check(const struct oracle_kind *kind, const struct oracle *oracle,

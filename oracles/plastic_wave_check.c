@@ -81,7 +81,8 @@ static void check_waves(struct self_check *check)
     double c = self_check_speed(&(struct self_check_body){.bulk = check->bulk, .mu = check->mu, .rho = check->rho});
     double X[3] = {STATION * g->L, 0, 0}, first = X[0] / c, v = fmin(g->v0, of->yielding);
     self_check_arrival(check, "arrival of the elastic wave", X[0], v / 2, first);
-    double modulus = check->bulk + 4.0 / 3 / (3 / g->hardening + 1 / check->mu), second = X[0] / sqrt(modulus / g->rho);
+    double plastic = g->hardening * check->mu / (3 * check->mu + g->hardening); /* 0 without hardening */
+    double modulus = check->bulk + 4.0 / 3 * plastic, second = X[0] / sqrt(modulus / g->rho);
     struct oracle_state state;
     bool two = g->v0 > of->yielding;
     if (two && second < check->t_end) {

@@ -51,7 +51,7 @@ static double linear_sound(const struct plate_impact_given *g, double eta, doubl
 /* Beyond 2/Gamma0 the curve that the equation of state is made from is not its Hugoniot curve. */
 static double linear_limit(const struct plate_impact_given *g)
 {
-    return fmin(1, fmin(1 / g->material[SLOPE], 2 / g->material[GAMMA0]));
+    return fmin(1 / fmax(1, g->material[SLOPE]), 2 / fmax(2, g->material[GAMMA0])); /* either may be 0 */
 }
 
 static double complex linear_pressure(const struct plate_impact_given *g, double complex eta, double complex e)

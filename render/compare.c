@@ -20,7 +20,8 @@ const struct render_tolerance render_tolerance_default = {.fraction = 5e-4, .wor
 
 bool render_within(const struct render_difference *difference, struct render_tolerance tolerance)
 {
-    return difference->fraction <= tolerance.fraction && difference->worst_tile <= tolerance.worst_tile;
+    return islessequal(difference->fraction, tolerance.fraction) &&
+           islessequal(difference->worst_tile, tolerance.worst_tile);
 }
 
 /* The body's part of a picture in CIELAB. */

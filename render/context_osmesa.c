@@ -3,11 +3,14 @@
 #include "render/fail.h"
 
 #include <GL/osmesa.h>
+#include <fenv.h>
 #include <stdlib.h>
 
 struct render_context {
     OSMesaContext mesa;
     uint8_t *pixels;
+    fenv_t before; /* the floating-point environment of the program: OSMesa, which divides by zero as it likes, and the
+                      threads that it makes have one without traps */
 };
 
 bool render_context_open(int width, int height, struct render_context **context, char why[RENDER_WHY])
@@ -18,6 +21,7 @@ bool render_context_open(int width, int height, struct render_context **context,
     struct render_context *made = calloc(1, sizeof *made);
     if (!made)
         return render_fail(why, "no memory for an OpenGL context");
+    (void)feholdexcept(&made->before);
     made->pixels = malloc((size_t)width * (size_t)height * 4);
     if (!made->pixels) {
         render_context_close(made);
@@ -44,6 +48,7 @@ void render_context_close(struct render_context *context)
         return;
     if (context->mesa)
         OSMesaDestroyContext(context->mesa);
+    (void)fesetenv(&context->before);
     free(context->pixels);
     free(context);
 }

@@ -20,10 +20,6 @@ set_tests_properties(quality-tidy quality-valgrind PROPERTIES FIXTURES_REQUIRED 
 assay_test(quality-sanitize LABELS quality TIMEOUT 1800 CORES ${cores}
   COMMAND ${quality}/sanitize.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/sanitize)
 
-# Floating-point traps, on the programs of this build.
-assay_test(quality-trap LABELS quality TIMEOUT 300 COMMAND ${quality}/trap.sh ${CMAKE_BINARY_DIR})
-set_tests_properties(quality-trap PROPERTIES FIXTURES_REQUIRED program)
-
 # Another compiler, and no optimisation, against the stored records.
 assay_test(quality-compilers LABELS quality TIMEOUT 600 CORES ${cores}
   COMMAND ${quality}/compilers.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/O0 ${CMAKE_BINARY_DIR}/clang)

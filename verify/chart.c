@@ -156,7 +156,7 @@ void verify_chart_dots(FILE *file, const struct verify_chart *chart, const char 
 
 void verify_chart_mark(FILE *file, const struct verify_chart *chart, const char *class, double x)
 {
-    if (x > chart->x.low && x < chart->x.high) {
+    if (isgreater(x, chart->x.low) && isless(x, chart->x.high)) {
         (void)fprintf(file, "<line class=\"%s\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>\n", class,
                       x_of(chart, x), chart->top, x_of(chart, x), chart->bottom);
     }

@@ -84,7 +84,7 @@ bool verify_extreme_check(const struct verify_extreme *extreme, const struct ver
 
 bool verify_extreme_holds(const struct verify_extreme_row *row)
 {
-    return row->value >= row->least && row->value <= row->most;
+    return isgreaterequal(row->value, row->least) && islessequal(row->value, row->most); /* no number is neither */
 }
 
 void verify_extreme_told(const struct verify_extremes *in, const struct verify_extreme_row *row)

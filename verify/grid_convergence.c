@@ -42,8 +42,11 @@ static double ratio_of_order(double p, double r21, double r32)
 static double order_of(const double *h, const double *f)
 {
     double e21 = f[1] - f[2], e32 = f[0] - f[1], r21 = h[1] / h[2], r32 = h[0] / h[1];
+    if (e21 == 0 || !(r21 > 1 && r32 > 1) || !(e32 / e21 > log(r32) / log(r21))) {
+        return NAN;
+    }
     double wanted = log(e32 / e21), low = 0, high = largest_order;
-    if (!(r21 > 1 && r32 > 1) || !(e32 / e21 > log(r32) / log(r21)) || !(wanted < ratio_of_order(high, r21, r32))) {
+    if (!(wanted < ratio_of_order(high, r21, r32))) {
         return NAN;
     }
     while (high - low > 1e-13 * high) {
@@ -70,9 +73,10 @@ static enum verify_convergence way_of(const double *h, const double *f)
     return e32 / e21 < 0 ? VERIFY_OSCILLATING : isnan(order_of(h, f)) ? VERIFY_DIVERGING : VERIFY_ONE_ORDER;
 }
 
+/* No number is near to nothing. */
 static bool near(double one, double other)
 {
-    return fabs(one - other) <= settled * fabs(other);
+    return islessequal(fabs(one - other), settled * fabs(other));
 }
 
 struct verify_extrapolation verify_extrapolate(size_t count, const double *h, const double *value)

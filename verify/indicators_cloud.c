@@ -43,6 +43,9 @@ static struct around look_around(const struct solver_points *now, const struct s
             all.centre[i] += V[b] * r[i];
         }
     }
+    if (all.weight == 0) {
+        return all;
+    }
     for (int i = 0; i < 3; i++) {
         all.centre[i] /= all.weight;
     }
@@ -85,7 +88,7 @@ static double checkerboard(const struct solver_points *now, const struct solver_
     for (size_t a = 0; a < now->count; a++) {
         struct around all = look_around(now, graph, V, pressure, a);
         double d;
-        if (length(all.centre) <= one_sided * all.distance && /* not so without neighbours */
+        if (all.weight > 0 && length(all.centre) <= one_sided * all.distance &&
             departure(now, graph, V, pressure, a, &all, &d)) {
             departures += V[a] * d * d;
             pressures += V[a] * pressure[a] * pressure[a];

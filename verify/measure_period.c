@@ -94,6 +94,9 @@ static double fit(struct motion *motion)
 double verify_period_fit(size_t count, const double *time, const double *displacement)
 {
     double low = INFINITY, high = -INFINITY, first = NAN, last = NAN;
+    if (count < 2 * PARAMETERS) {
+        return NAN;
+    }
     for (size_t i = 0; i < count; i++) {
         low = fmin(low, displacement[i]);
         high = fmax(high, displacement[i]);
@@ -101,11 +104,11 @@ double verify_period_fit(size_t count, const double *time, const double *displac
     struct motion motion = {.count = count,
                             .time = time,
                             .displacement = displacement,
-                            .begin = count > 0 ? time[0] : NAN,
+                            .begin = time[0],
                             .middle = (low + high) / 2,
                             .size = (high - low) / 2};
     size_t found = motion.size > 0 ? crossings(&motion, &first, &last) : 0;
-    if (found < 3 || count < 2 * PARAMETERS || !isfinite(motion.size)) {
+    if (found < 3 || !isfinite(motion.size)) {
         return NAN;
     }
     motion.unit = (last - first) / (double)(found - 1);

@@ -52,7 +52,7 @@ bool verify_plastic_most(const struct verify_measuring *in, const struct verify_
     *value = 0;
     for (size_t a = 0; a < in->output->cloud->count; a++) {
         double strain = in->output->plastic_strain[a];
-        *value = strain <= *value || isnan(*value) ? *value : strain; /* a NaN stays */
+        *value = islessequal(strain, *value) || isnan(*value) ? *value : strain; /* a NaN stays */
     }
     return true;
 }

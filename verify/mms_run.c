@@ -224,9 +224,9 @@ void verify_mms_run(const struct verify_mms_case *which, const struct verify_spo
     result->ran = which->in_time ? run_in_time(which, result) : run_in_space(which, spoiled, result);
     for (int i = 0; i < VERIFY_MMS_VARIABLES; i++) {
         double asked = which->asked[i];
-        bool exact = result->finest[i] < VERIFY_MMS_ROUND_OFF; /* has no order; what is no number is not exact */
+        bool exact = isless(result->finest[i], VERIFY_MMS_ROUND_OFF); /* has no order; what is no number is not exact */
         result->asked[i] = asked > 0 && !exact;
-        if (result->asked[i] && !(result->order[i] >= asked)) {
+        if (result->asked[i] && !isgreaterequal(result->order[i], asked)) {
             result->pass = false;
         }
     }

@@ -54,7 +54,7 @@ void verify_motion_at(const struct verify_motion *motion, size_t probe, double t
 {
     size_t points = motion->count < POINTS ? motion->count : POINTS;
     u[0] = u[1] = u[2] = NAN;
-    if (points == 0 || !(t >= motion->time[0] && t <= motion->time[motion->count - 1])) {
+    if (points == 0 || !isgreaterequal(t, motion->time[0]) || !islessequal(t, motion->time[motion->count - 1])) {
         return;
     }
     size_t before = row_before(motion, t);

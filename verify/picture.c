@@ -1,7 +1,6 @@
 #include "verify/picture.h"
 
 #include "verify/files.h"
-#include "verify/trap.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -176,9 +175,7 @@ static bool draw_surface(const struct solver_record *record, const struct solver
         }
     }
     char why[RENDER_WHY] = "";
-    bool trapped = verify_trap_suspend(); /* OSMesa divides by zero as it likes */
     bool drawn = render_draw(&surface, &shown, image, why);
-    verify_trap_resume(trapped);
     free(quad);
     return drawn || solver_fail(error, SOLVER_BAD_INPUT, "the picture cannot be drawn: %s", why);
 }

@@ -162,12 +162,15 @@ size_t verify_trade_decades(const struct verify_trade *trade, size_t error, doub
     size_t count = 0;
     for (size_t i = 0; i < trade->run_count; i++) {
         const struct verify_trade_run *run = &trade->run[i];
-        if (run->end == VERIFY_MEASURED && run->error[error] > 0) {
+        if (run->end == VERIFY_MEASURED && isgreater(run->error[error], 0)) {
             least = fmin(least, run->error[error]);
             most = fmax(most, run->error[error]);
         }
     }
-    for (int power = (int)floor(log10(trade->relative ? fmin(most, 0.99) : most)); most > 0 && count < room; power--) {
+    if (most == 0) {
+        return 0;
+    }
+    for (int power = (int)floor(log10(trade->relative ? fmin(most, 0.99) : most)); count < room; power--) {
         decade[count++] = pow(10, power);
         if (decade[count - 1] < least) {
             break;

@@ -6,10 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Errors that are not there are NaN, and one may be zero: neither is computed with. */
+/* Errors that are not there are NaN, and one may be zero or infinite: none of these is computed with. */
 double verify_order(double e1, double h1, double e2, double h2)
 {
-    bool sensible = !isnan(e1) && !isnan(e2) && e1 >= 0 && e2 >= 0 && h1 > 0 && h2 > 0 && h1 != h2;
+    bool sensible =
+        isfinite(e1) && isfinite(e2) && e1 >= 0 && e2 >= 0 && isgreater(h1, 0) && isgreater(h2, 0) && h1 != h2;
     if (!sensible || (e1 == 0 && e2 == 0)) {
         return NAN;
     }

@@ -200,7 +200,7 @@ size_t verify_trade_cheapest(const struct verify_trade *trade, size_t error, dou
     size_t found = trade->run_count;
     for (size_t i = 0; i < trade->run_count; i++) {
         const struct verify_trade_run *run = &trade->run[i];
-        bool reaches = run->end == VERIFY_MEASURED && run->error[error] <= bound && (run->own || !own);
+        bool reaches = run->end == VERIFY_MEASURED && islessequal(run->error[error], bound) && (run->own || !own);
         if (reaches && (found == trade->run_count || run->cost[cost] < trade->run[found].cost[cost])) {
             found = i;
         }

@@ -63,16 +63,31 @@ void verify_trap_from_environment(void)
     }
 }
 
+/* In the threads that there are as well; those that come later take after the one that makes them. */
+static void in_all_threads(int (*set)(int))
+{
+#ifdef _OPENMP
+#pragma omp parallel
+#endif
+    {
+        (void)feclearexcept(FE_ALL_EXCEPT);
+        (void)set(TRAPPED);
+    }
+}
+
 bool verify_trap_suspend(void)
 {
-    return (fedisableexcept(TRAPPED) & TRAPPED) != 0;
+    bool were_set = (fegetexcept() & TRAPPED) != 0;
+    if (were_set) {
+        in_all_threads(fedisableexcept);
+    }
+    return were_set;
 }
 
 void verify_trap_resume(bool were_set)
 {
-    (void)feclearexcept(FE_ALL_EXCEPT);
     if (were_set) {
-        (void)feenableexcept(TRAPPED);
+        in_all_threads(feenableexcept);
     }
 }
 

@@ -7,8 +7,8 @@
 
 /* Call first in main, before any thread is made: threads inherit what is trapped. */
 void verify_trap_from_environment(void);
-/* Around what others compute with infinities and NaN, or what does so itself and says why: returns whether traps were
- * set, for the second. */
+/* Around what others compute with infinities and NaN, or what does so itself and says why; in all threads, so that it
+ * is to be called outside parallel loops. The first returns whether traps were set, for the second. */
 bool verify_trap_suspend(void);
 void verify_trap_resume(bool were_set);
 

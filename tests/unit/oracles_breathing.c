@@ -351,6 +351,7 @@ static void another_mode_is_caught(void)
 
 static void refuses_what_it_cannot_answer(void)
 {
+    unit_untrapped();
     static const struct {
         struct setting set[SETTINGS];
         const char *says;

@@ -129,6 +129,7 @@ static void holds_at_the_ends_of_its_parameters(void)
 
 static void refuses_parts_that_do_not_fit(void)
 {
+    unit_untrapped();
     const struct oracle_kind *kind = the_kind();
     refuses(kind, (const struct setting[SETTINGS]){{"moving", 10.1}},
             "moving = 10.1 [m], but it must be at most L = 10");

@@ -180,6 +180,7 @@ static void holds_at_the_ends_of_its_parameters(void)
 
 static void refuses_what_is_no_cycle(void)
 {
+    unit_untrapped();
     for (size_t n = 0; n < KINDS; n++) {
         const struct oracle_kind *kind = kind_called(names[n]);
         refuses(kind, (const struct setting[SETTINGS]){{"cycles", 1.5}}, "must be a whole number; cycles = 2 would do");

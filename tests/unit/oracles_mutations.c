@@ -228,6 +228,7 @@ static void swapped_energies(double d, struct energies *e)
 
 static void wrong_formulas_are_caught(void)
 {
+    unit_untrapped();
     static spoil_state *const states[] = {sign_of_v,      sines_for_cosines, transposed_gradient, sign_of_one_shear,
                                           no_unit_matrix, all_by_the_p_wave, all_by_the_s_wave,   frozen,
                                           nothing,        nan_now_and_then};

@@ -62,6 +62,7 @@ static void begin(const struct oracle_kind *kind, double value[ORACLE_PARAMETERS
 
 static void small_changes_are_caught(void)
 {
+    unit_untrapped();
     printf("\n");
     for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
         double value[ORACLE_PARAMETERS], loosest = 0;
@@ -85,6 +86,7 @@ static void small_changes_are_caught(void)
 /* Every parameter off in the fields alone: a solution without a flaw, but of another problem. */
 static void another_problem_is_caught(void)
 {
+    unit_untrapped();
     printf("\n");
     for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
         double value[ORACLE_PARAMETERS], loosest = 0;
@@ -129,6 +131,7 @@ static void nan_now_and_then(const double X[3], double t, double d, struct oracl
 
 static void wrong_formulas_are_caught(void)
 {
+    unit_untrapped();
     static spoil_state *const states[] = {sign_of_v, sign_of_P, no_unit_matrix, frozen, nothing, nan_now_and_then};
     for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL; k++) {
         double value[ORACLE_PARAMETERS];

@@ -169,6 +169,7 @@ static void holds_at_the_ends_of_its_parameters(void)
 
 static void refuses_what_it_cannot_tell_apart(void)
 {
+    unit_untrapped();
     const struct oracle_kind *kind = the_kind();
     refuses(kind, (const struct setting[SETTINGS]){{"material.hardening", 1e20}}, "too near to the elastic one");
     refuses(kind, (const struct setting[SETTINGS]){{"material.nu", 0.49999999}}, "too near to the elastic one");

@@ -74,6 +74,7 @@ static void refuses_impossible_materials(void)
 
 static void refuses_what_overflows(void)
 {
+    unit_untrapped();
     refused("U0", 1e200, "range of double precision");
     refused("U0", 1e-200, "range of double precision");
     refused("A", 1.7e308, "range of double precision");
@@ -84,6 +85,7 @@ static void refuses_what_overflows(void)
 /* The fields of infinite amplitudes at rest are not a number, although nothing moves. */
 static void refuses_infinity_times_zero(void)
 {
+    unit_untrapped();
     const struct oracle_kind *kind = the_kind();
     double values[ORACLE_PARAMETERS];
     char why[ORACLE_WHY] = "";

@@ -165,6 +165,7 @@ static void holds_with_hostile_parameters(void)
 
 static void refuses_rods_that_do_not_meet(void)
 {
+    unit_untrapped();
     const struct oracle_kind *kind = the_kind();
     refuses(kind, (const struct setting[SETTINGS]){{"v1", 1000.0000001}, {"v2", 1000}}, "too few digits are left");
     refuses(kind, (const struct setting[SETTINGS]){{"gap", 1e8}}, "choose a smaller gap");

@@ -140,6 +140,7 @@ static void holds_at_the_ends_of_its_parameters(void)
 
 static void refuses_what_it_cannot_answer(void)
 {
+    unit_untrapped();
     refuses(the_kind(), (const struct setting[SETTINGS]){{"L", 0.07}}, "4 to 50 times; L = 0.2 would do");
     refuses(the_kind(), (const struct setting[SETTINGS]){{"mode", 2.5}}, "a whole number");
     refuses(the_kind(), (const struct setting[SETTINGS]){{"v_tip", 1e200}}, "range of double precision");

@@ -209,6 +209,7 @@ static void refuses(const struct render_surface *surface, const struct render_vi
 
 static void wrong_views_are_refused(void)
 {
+    unit_untrapped();
     REFUSES_VIEW(view.direction[2] = 0, "direction");
     REFUSES_VIEW(view.direction[0] = NAN, "direction");
     REFUSES_VIEW(view.up[1] = 0, "up");
@@ -231,6 +232,7 @@ static void wrong_views_are_refused(void)
 
 static void wrong_surfaces_are_refused(void)
 {
+    unit_untrapped();
     const struct render_view view = front();
     struct render_surface surface = square();
     square_quad[3][2] = 9;

@@ -167,6 +167,7 @@ static void another_kind(void)
 
 static void made_up(void)
 {
+    unit_untrapped();
     enum { SIZE = 56, DATA = 64 }; /* within a block */
     const uint64_t huge = UINT64_MAX - 3, many = 1u << 30, few = 8;
     const double nan = NAN, infinite = INFINITY, late = 7.0, negative = -1.0;
@@ -217,6 +218,7 @@ static void of_another_run(void)
 /* Any bytes, sealed: refused or taken, and nothing is read or written out of bounds, for checkers to see. */
 static void any_bytes(void)
 {
+    unit_untrapped();
     unsigned char *copy = malloc(good_size);
     uint32_t random = 1;
     CU_ASSERT_FATAL(copy != NULL);

@@ -232,6 +232,7 @@ static void refuse(struct solver_box box, const char *expected)
 
 static void refusals(void)
 {
+    unit_untrapped();
     const struct solver_box good = {.dim = 3, .upper = {1.0, 1.0, 1.0}, .spacing = 0.25};
     struct solver_cloud *cloud = clouds_make(&good);
     CU_ASSERT_PTR_NOT_NULL(cloud);

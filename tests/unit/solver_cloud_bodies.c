@@ -219,6 +219,7 @@ static void refuse(int dim, const struct solver_shape *shape, size_t count, doub
 
 static void refusals(void)
 {
+    unit_untrapped();
     const struct solver_shape good = ring(0.0, 0.0, 0.5, 1.0), thin = ring(0.0, 0.0, 0.5, 0.55),
                               inside_out = ring(0.0, 0.0, 1.0, 0.5), disc = ring(0.0, 0.0, 0.0, 0.5),
                               lost = ring(NAN, 0.0, 0.5, 1.0), endless = ring(0.0, 0.0, 0.5, INFINITY);

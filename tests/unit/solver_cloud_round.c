@@ -247,6 +247,7 @@ static void refuse(struct solver_shape shape, double spacing, const char *expect
 
 static void refusals(void)
 {
+    unit_untrapped();
     struct solver_shape ball = shapes[1], rod = shapes[2], lost = shapes[1];
     refuse(ball, 0.2, "a radius of 0.7 m is 3.5 spacings of 0.2 m");
     refuse(ball, 1.4, "a whole number, one or more");

@@ -262,6 +262,7 @@ static double not_a_number(const double X[3])
 
 static void refusals(void)
 {
+    unit_untrapped();
     struct solid_shape shape = solid_shapes[0];
     struct solver_solid solid = solid_of(&shape, 8), off = solid, line = solid, small = solid, still = solid;
     off.spacing = 0.08;

@@ -136,6 +136,7 @@ static void test_sharp(void)
 
 static void test_refusals(void)
 {
+    unit_untrapped();
     static const struct {
         const char *die, *expected;
     } bad[] = {

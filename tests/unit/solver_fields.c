@@ -328,6 +328,7 @@ static void over_ulsph(expectation *expect)
 
 static void fields_are_read(void)
 {
+    unit_untrapped();
     over_lagrangian(expect_all_read, "upwind");
     over_lagrangian(expect_all_read, "jst");
     expect_all_read(metal, "dim=2 n=2 scheme=jst evolved=pF jst.kappa4_plastic=0 jst.plastic_at=0.1");
@@ -336,6 +337,7 @@ static void fields_are_read(void)
 
 static void nothing_else_is_read(void)
 {
+    unit_untrapped();
     over_lagrangian(expect_nothing_else_read, "upwind");
     over_lagrangian(expect_nothing_else_read, "jst");
     over_ulsph(expect_nothing_else_read);

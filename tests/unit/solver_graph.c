@@ -149,6 +149,7 @@ static void tiny_radius(void)
 
 static void refusals(void)
 {
+    unit_untrapped();
     static const double bad[] = {0.0, -0.1, NAN, -INFINITY};
     struct solver_box box = clouds_box(2, 5, 0.0, 3);
     struct solver_cloud *cloud = clouds_make(&box);

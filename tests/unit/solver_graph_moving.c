@@ -204,6 +204,7 @@ static void same_for_any_threads(void)
 
 static void lost_particles(void)
 {
+    unit_untrapped();
     static const double bad[] = {NAN, INFINITY, -INFINITY, 1.5e308};
     uint64_t state = 3;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -94,6 +94,7 @@ static void test_inverted(void)
 /* Far beyond the stability limit a linear body grows until its numbers overflow. */
 static void test_unstable(void)
 {
+    unit_untrapped();
     static const char *const settings[] = {
         "dim=3 cfl=10 material.model=linear-elastic evolved=pF",
         "dim=3 cfl=10 material.model=linear-elastic evolved=pFHJ integrator=rk4",
@@ -150,6 +151,7 @@ static void test_run_to(void)
 /* The field that is broken is the one named. */
 static void test_field_is_named(void)
 {
+    unit_untrapped();
     static const char fast[] = "initial = { velocity = function(X, Y, Z) return first(0, 1e200, 0) end }\n";
     struct solver_error error = refusal(fast, "dim=2");
     CU_ASSERT_EQUAL(error.code, SOLVER_BROKE_DOWN);
@@ -167,6 +169,7 @@ static void test_field_is_named(void)
 /* A formula that fails later stops the run with the formula's error. */
 static void test_formula_fails(void)
 {
+    unit_untrapped();
     static const char late[] = "faces = { X0 = { kind = 'motion', value = function(X, Y, Z, t)\n"
                                "    if t > 0.2 then return 0 / 0, 0, 0 end return 0.01, 0, 0 end } }\n";
     struct sample sample = start(late, "dim=3");
@@ -181,6 +184,7 @@ static void test_formula_fails(void)
 /* Whichever stage a formula fails in, the output is the state after the last whole step. */
 static void test_formula_fails_within_a_step(void)
 {
+    unit_untrapped();
     static const char *const late[] = {"return first(t > %s and 0 / 0 or 0.3, 0, 0)", "return first(0.3, 0, 0)"};
     static const char *const kinds[] = {"body_force = function(X, Y, Z, t) %s end\n",
                                         "faces = { X0 = { kind = 'traction', value = function(X, Y, Z, t) %s end } }\n",

@@ -132,6 +132,7 @@ static void threads(void)
 /* A step that breaks a particle is taken back, and with it what has flown in it. */
 static void taken_back(void)
 {
+    unit_untrapped();
     struct sample sample = start(with(plastic, torn), "dim=2 n=6 cfl=3 integrator=rk4");
     double *before = NULL;
     bool ok = true;

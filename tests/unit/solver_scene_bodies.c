@@ -111,6 +111,7 @@ static void check_refused(const struct bad *bad)
 
 static void bad_bodies(void)
 {
+    unit_untrapped();
 #define WITH(bodies) PLAIN_DOMAIN, "lattice, reference_length = 'centres', 1\nbodies = " bodies
     static const struct bad bad[] = {
         {PLAIN_DOMAIN, "", 0,
@@ -164,6 +165,7 @@ static void bad_bodies(void)
 
 static void bad_round(void)
 {
+    unit_untrapped();
 #define DISC(more)  PLAIN_DOMAIN, "domain = { shape = 'disc', centre = {0, 0}, radius = 2" more
 #define SOLID(more) "dim = 2\n" PLAIN_DOMAIN, "dim = 3\ndomain = { centre = {0, 0, 0}, radius = 2, " more
     static const struct bad bad[] = {

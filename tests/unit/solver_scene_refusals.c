@@ -35,6 +35,7 @@ static void check_all(const struct bad *bad, size_t count)
 
 static void bad_keys(void)
 {
+    unit_untrapped();
     static const struct bad bad[] = {
         {"t_end", "t_edn", 0, ".lua:6: t_edn: unknown key, did you mean t_end?"},
         {"nu =", "mu =", 0, ".lua: material.mu: unknown key, did you mean material.nu?"},
@@ -103,6 +104,7 @@ static void bad_keys(void)
 
 static void bad_resolution(void)
 {
+    unit_untrapped();
     static const struct bad bad[] = {
         {"n = 4", "n = 0", 0, "n: expected whole number >= 1, got 0"},
         {"n = 4", "n = 4.5", 0, "n: expected whole number >= 1, got 4.5"},
@@ -124,6 +126,7 @@ static void bad_resolution(void)
 
 static void bad_parts(void)
 {
+    unit_untrapped();
     static const struct bad bad[] = {
         {0, "faces = { Z0 = 'free' }", 0, "faces.Z0: a body of dim = 2 has no such face"},
         {0, "faces = { W0 = 'free' }", 0, "faces.W0: unknown key, did you mean faces."},
@@ -180,6 +183,7 @@ static void bad_parts(void)
 
 static void bad_lists(void)
 {
+    unit_untrapped();
     static const struct bad bad[] = {
         {0, "snapshots = {1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17}", 0, "snapshots: at most 16 entries"},
         {0, "snapshots = { at = 0.5 }", 0, "snapshots: expected a list without gaps and without names"},
@@ -247,6 +251,7 @@ static void bad_lists(void)
 
 static void bad_overrides(void)
 {
+    unit_untrapped();
     static const struct bad bad[] = {
         {0, 0, "nn=3", ".lua: --set nn=3: unknown key, did you mean n?"},
         {0, 0, "material.mu=3", ".lua: --set material.mu=3: unknown key, did you mean material.nu?"},
@@ -324,6 +329,7 @@ static void hostile_scenes(void)
 
 static void bad_formulas(void)
 {
+    unit_untrapped();
     static const struct bad bad[] = {
         {"return X, Y", "return X", 0, "initial.velocity at X = (0, 0, 0), t = 0: expected 2 numbers, got 1 values"},
         {"return X, Y", "return X, Y, Z", 0, "expected 2 numbers, got 3 values"},

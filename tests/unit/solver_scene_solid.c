@@ -87,6 +87,7 @@ static struct solver_error refused(const char *text, int dim)
 
 static void refusals(void)
 {
+    unit_untrapped();
     static const struct {
         const char *text;
         int dim;

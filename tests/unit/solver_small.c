@@ -104,6 +104,7 @@ static void refuse(size_t size, double A[4][4])
 
 static void singular(void)
 {
+    unit_untrapped();
     double zero[4][4] = {{0}}, same[4][4] = {{1, 2}, {2, 4}}, hole[4][4] = {{NAN, 1}, {1, 2}};
     refuse(1, zero);
     refuse(4, zero);

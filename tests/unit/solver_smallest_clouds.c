@@ -67,6 +67,9 @@ static bool numbers(const struct solver_stencil *stencil)
 static void handfuls_are_right_or_refused(void)
 {
     for (size_t i = 0; i < sizeof handfuls / sizeof *handfuls; i++) {
+        if (strncmp(handfuls[i].what, "a NaN", 5) == 0) {
+            unit_untrapped();
+        }
         double X[3 * MOST], V[MOST];
         uint32_t tags[MOST];
         struct solver_cloud cloud = cloud_of(&handfuls[i], X, V, tags);

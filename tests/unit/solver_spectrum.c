@@ -47,6 +47,16 @@ static void stable_steps_are_the_known_limits(void)
     CU_ASSERT(isinf(solver_stable_step(solver_integrator_find("rk4"), &still, 1, 1e-12)));
 }
 
+/* Along a ray just right of the imaginary axis small steps grow, and larger ones do not: what grows at any shorter step
+ * is not stable. */
+static void shorter_steps_must_hold_too(void)
+{
+    const struct solver_integrator *integrator = solver_integrator_find("rk4");
+    const double complex growing = 1e-3 + _Complex_I;
+    CU_ASSERT(cabs(solver_stability_function(integrator, 2.0 * growing)) < 1.0);
+    CU_ASSERT(solver_stable_step(integrator, &growing, 1, 1e-12) < 1e-8);
+}
+
 static struct solver_run *bar(const char *const *overrides, size_t count, struct solver_scene **scene)
 {
     struct solver_error error;
@@ -132,6 +142,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"stability functions are the exponential to the order", stability_functions_are_the_exponential_to_the_order},
         {"stable steps are the known limits", stable_steps_are_the_known_limits},
+        {"shorter steps must hold too", shorter_steps_must_hold_too},
         {"a free bar has its frequencies", a_free_bar_has_its_frequencies},
         {"a spectrum leaves the run alone", a_spectrum_leaves_the_run_alone},
         {"what has no spectrum is refused", what_has_no_spectrum_is_refused},

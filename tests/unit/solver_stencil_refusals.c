@@ -107,6 +107,7 @@ static void damage_area_and_volume(struct made *made)
 /* What is no number must not pass for a small one. */
 static void damaged_with_nan(void)
 {
+    unit_untrapped();
     struct made made = make(solver_stencil_find("sbp2"), 2);
     solver_stencil_C(made.stencil, made.stencil->pairs / 2)[0] = NAN;
     struct solver_stencil_residuals after = solver_stencil_check(made.stencil, made.cloud);
@@ -119,6 +120,7 @@ static void damaged_with_nan(void)
 /* Nor in what a stencil is built from. */
 static void volume_is_nan(void)
 {
+    unit_untrapped();
     struct solver_box box = clouds_box(2, 8, 0.15, 1);
     struct solver_cloud *cloud = clouds_make(&box);
     struct solver_stencil *stencil = NULL;
@@ -220,6 +222,7 @@ static void refuse(const char *name, const struct solver_box *box, double suppor
 
 static void refusals(void)
 {
+    unit_untrapped();
     static const char *const few[] = {"support", "particle", "too few neighbours", "choose a larger support", NULL};
     static const char *const radius[] = {"support", "positive", NULL};
     static const char *const closed[] = {"closed", "choose a larger support", NULL};

@@ -335,6 +335,7 @@ static void refuse(const char *expected)
 
 static void refusals(void)
 {
+    unit_untrapped();
     static const double half[3] = {0.5, 1.25, 0.75};
     static const char *const texts[] = {
         "",
@@ -392,6 +393,7 @@ static void refusals(void)
 /* Any change of a byte is either refused or leaves a closed surface. */
 static void changed_bytes(void)
 {
+    unit_untrapped();
     static const double half[3] = {0.5, 1.25, 0.75};
     uint64_t seed = 11;
     size_t accepted = 0;

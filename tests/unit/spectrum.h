@@ -140,6 +140,7 @@ static inline void random_matrices(void)
 /* What is no number stays none, and ends. */
 static inline void not_a_number(void)
 {
+    unit_untrapped();
     struct tensor T = turned(hostile[2], false);
     T.column[0][0] = NAN;
     struct spectrum of = spectrum(T);

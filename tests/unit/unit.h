@@ -11,6 +11,11 @@ struct unit_test {
     void (*run)(void);
 };
 
+/* Infinities and NaN are handed over on purpose from here on: floating-point traps (verify/trap.h) stay away until the
+ * second, or else to the end of the test. */
+void unit_untrapped(void);
+void unit_trapped(void);
+
 /* Call from main: `return unit_main("cloud", tests, sizeof tests / sizeof *tests);` */
 int unit_main(const char *suite, const struct unit_test *tests, size_t count);
 

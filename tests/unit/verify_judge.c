@@ -291,6 +291,7 @@ static void orders_and_gates(void)
 
 static void refuses_gates(void)
 {
+    unit_untrapped();
     static const struct {
         const char *gate, *words;
     } wrong[] = {

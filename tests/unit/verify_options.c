@@ -124,6 +124,7 @@ static bool parse_tolerance(const char *text)
 
 static void tolerances(void)
 {
+    unit_untrapped();
     CU_ASSERT_TRUE_FATAL(parse_tolerance("5e-4,0.02"));
     CU_ASSERT_TRUE(options.has_tolerance);
     CU_ASSERT_EQUAL(options.tolerance[0], 5e-4);

@@ -22,6 +22,7 @@ static void what_is_meant(void)
 
 static void what_is_refused(void)
 {
+    unit_untrapped();
     static const char *const texts[] = {
         "",    "0",      "-5",        "5.5", "s",     "0s", "-1s", "1e999h", "nan", "inf",
         "10m", "10 min", "10minutes", "1d",  "0x10s", " 5", "5 ",  "+5",     "1s2", "9999999999999999"};

@@ -51,6 +51,7 @@ static void without_a_last_line_end(void)
 
 static void refuses(void)
 {
+    unit_untrapped();
     static const struct {
         const char *text, *words;
     } wrong[] = {

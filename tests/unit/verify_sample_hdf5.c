@@ -220,6 +220,7 @@ static void records_of_our_own_and_damaged_ones(void)
 
 static void refuses_what_is_missing_or_has_another_shape(void)
 {
+    unit_untrapped();
     struct way way = plain();
     const hsize_t five[] = {POINTS + 1}, wide[] = {POINTS, 5}, none[] = {0, 2}, four[] = {2, 2, 2, 2};
     begin();

@@ -49,6 +49,7 @@ static void choices(void)
     CU_ASSERT_EQUAL(verify_trade_cheapest(&trade, 0, 5e-3, VERIFY_SECONDS, true), 0);
     CU_ASSERT_EQUAL(verify_trade_cheapest(&trade, 0, 1e-6, VERIFY_SECONDS, false), trade.run_count);
     CU_ASSERT_EQUAL(verify_trade_cheapest(&trade, 1, 3e-4, VERIFY_SECONDS, false), 3); /* NaN reaches nothing */
+    CU_ASSERT_EQUAL(verify_trade_cheapest(&trade, 1, 1e-9, VERIFY_SECONDS, false), trade.run_count);
     CU_ASSERT_EQUAL(verify_trade_best(&trade, 0), 4);
     CU_ASSERT_EQUAL(verify_trade_error(&trade, "figure period"), 1);
     CU_ASSERT_EQUAL(verify_trade_error(&trade, "u"), 2);

@@ -45,6 +45,8 @@ static void round_trip(void)
     add("scheme=upwind", 8, 1, 1, 1, 1)->end = VERIFY_BROKE; /* is not kept */
     snprintf(trade.run[1].variant, SOLVER_NAME, "a b");
     trade.run[2].noise = NAN;
+    trade.run[2].error[0] = 1.0 / 3.0; /* every digit is kept */
+    trade.run[2].cost[VERIFY_SECONDS] = 2.0 / 3.0;
     trade.chosen = 1;
     CU_ASSERT_TRUE_FATAL(verify_trade_write(&trade, file, &error));
     CU_ASSERT_TRUE_FATAL(verify_trade_read(file, &read, &error));
@@ -117,6 +119,7 @@ static void forge(const char *text, const char *old, const char *new)
 
 static void hostile(void)
 {
+    unit_untrapped();
     static const struct {
         const char *old, *new, *says;
     } bad[] = {
