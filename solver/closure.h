@@ -3,17 +3,20 @@
  * A vector u is [count][dim + 1][lanes]: alpha, then beta by components, each for every component k of C, which do not
  * couple. On a pair, with half its distance d/2 in spacings,
  *     step_ab(u) = w_ab [ alpha_a - alpha_b + d/2 . (beta_a + beta_b) ],       M u at a = sum_b (1, d/2) step_ab(u),
- * so u . M u = sum over pairs step^2 / w. Smooth alpha with beta = grad alpha leave third derivatives alone: the condition
- * number grows like n^6, and conjugate gradients need a preconditioner that takes each scale apart. It is one cycle
- * over nested spaces: particles, then quadratic splines alpha(X), beta = grad alpha, on grids that are coarser by 2 each
- * (closure_grid.c), with polynomial smoothing and a dense solution on the coarsest. */
+ * so u . M u = sum over pairs step^2 / w. Of smooth alpha with beta = grad alpha only third derivatives are left, so
+ * that the condition number grows like n^6. The preconditioner is one cycle over nested spaces: particles, then
+ * quadratic splines alpha(X), beta = grad alpha, on grids that are coarser by 2 each (closure_grid.c), with polynomial
+ * smoothing, and a dense solution on the coarsest. The iteration is that of conjugate residuals: M is singular,
+ * quadratic alpha have no energy, and what round-off leaves of r there would grow in conjugate gradients. Work and
+ * memory grow with the number of pairs, but on a lattice whose support holds nearest layers only: there alpha that vary
+ * along one axis alone have no energy either, and iterations grow with the number of particles along an edge. */
 #ifndef SOLVER_CLOSURE_H
 #define SOLVER_CLOSURE_H
 
 #include "solver/graph.h"
 #include "solver/path.h"
 
-enum { SOLVER_CLOSURE_LEVELS = 24, SOLVER_CLOSURE_DENSE = 160, SOLVER_CLOSURE_SPLINES = 27, SOLVER_CLOSURE_REACH = 3 };
+enum { SOLVER_CLOSURE_LEVELS = 24, SOLVER_CLOSURE_REACH = 3 };
 
 /* Margin of the cells of splines, relative to the particles' spacing: round-off decides nothing. */
 static const double solver_closure_slack = 1e-6;
@@ -21,18 +24,18 @@ static const double solver_closure_slack = 1e-6;
 /* Quadratic splines on square cells: spline i along an axis lives on cells i - 2, i - 1 and i. */
 struct solver_closure_grid {
     int dim;
-    size_t count;       /* splines that are not zero on every particle */
-    uint64_t *key;      /* [count] place of each as one number, ascending */
-    int32_t *at;        /* [count][3] place of each along the axes */
-    size_t *row;        /* [count + 1] the matrix, in compressed sparse rows */
-    uint32_t *column;   /* [row[count]] */
-    double *value;      /* [row[count]] */
-    double *diagonal;   /* [count] its inverse */
-    uint32_t *parent;   /* [count][2^dim] on the next coarser grid; NULL on the coarsest */
-    size_t *child_row;  /* [coarser count + 1] the same the other way round */
-    uint32_t *child;    /* [child_row[coarser count]] */
-    double *factor;     /* [count][count] on the coarsest: its Cholesky factor */
-    double largest;     /* bound of the eigenvalues of matrix / diagonal */
+    size_t count;             /* splines that are not zero on every particle */
+    uint64_t *key;            /* [count] place of each as one number, ascending */
+    int32_t *at;              /* [count][3] place of each along the axes */
+    size_t *row;              /* [count + 1] the matrix, in compressed sparse rows */
+    uint32_t *column;         /* [row[count]] */
+    double *value;            /* [row[count]] */
+    double *diagonal;         /* [count] its inverse */
+    uint32_t *parent;         /* [count][2^dim] on the next coarser grid; NULL on the coarsest */
+    size_t *child_row;        /* [coarser count + 1] the same the other way round */
+    uint32_t *child;          /* [child_row[coarser count]] */
+    double *factor;           /* [count][count] on the coarsest: its Cholesky factor */
+    double largest;           /* bound of the eigenvalues of matrix / diagonal */
     double *x, *r, *d, *next; /* [count][lanes] */
 };
 
@@ -41,23 +44,22 @@ struct solver_closure {
     const struct solver_graph *graph;
     const struct solver_closure_loops *loops;
     double *X;       /* [count][lanes] places [m] */
-    double middle[3], per_length; /* of the cloud [m, 1/m] */
     double scale;    /* half a spacing's reciprocal [1/m]: turns distances into halves in spacings */
     double *weight;  /* [pairs] */
     double *inverse; /* [count][dim + 1][dim + 1] of the blocks on M's diagonal */
     /* cells of the finest grid */
     double origin[3], width; /* [m] */
     size_t cell_count;
-    int32_t *cell_at;         /* [cell_count][3] */
-    size_t *cell_start;       /* [cell_count + 1] first particle of each */
-    uint32_t *cell_particle;  /* [count] */
-    uint32_t *cell_of;        /* [count] */
-    uint32_t *cell_spline;    /* [cell_count][3^dim] */
-    uint32_t *spline_cell;    /* [splines][3^dim] the same the other way round; UINT32_MAX: no such cell */
-    double *cell_sum;         /* [cell_count][3^dim][lanes] */
+    int32_t *cell_at;        /* [cell_count][3] */
+    size_t *cell_start;      /* [cell_count + 1] first particle of each */
+    uint32_t *cell_particle; /* [count] */
+    uint32_t *cell_of;       /* [count] */
+    uint32_t *cell_spline;   /* [cell_count][3^dim] */
+    uint32_t *spline_cell;   /* [splines][3^dim] the same the other way round; UINT32_MAX: no such cell */
+    double *cell_sum;        /* [cell_count][3^dim][lanes] */
     int levels;
     struct solver_closure_grid grid[SOLVER_CLOSURE_LEVELS];
-    /* conjugate gradients, [count][dim + 1][lanes] each */
+    /* the iteration and the cycle, [count][dim + 1][lanes] each */
     double *residual, *solution, *direction, *image, *z, *z_image, *back, *left, *step, *next;
     double *partial; /* [pieces][lanes] */
     int iterations;  /* taken so far, in all solutions */
@@ -73,8 +75,7 @@ struct solver_closure_loops {
     /* x += d, r -= M d, next = keep d + factor * blocks^-1 r */
     void (*smooth)(const struct solver_closure *of, double keep, double factor, const double *d, double *x, double *r,
                    double *next, size_t begin, size_t end);
-    void (*dot)(const struct solver_closure *of, const double *x, const double *y, double *sum, size_t begin,
-                size_t end);
+    void (*dot)(const double *x, const double *y, double *sum, size_t begin, size_t end);
     /* x += factor y, or x = factor x + y, a factor per component */
     void (*add)(const struct solver_closure *of, const double *factor, const double *y, double *x, size_t begin,
                 size_t end);
@@ -92,16 +93,15 @@ struct solver_closure_loops {
     void (*sum_cells)(const struct solver_closure *of, const double *r, size_t begin, size_t end);
     void (*sum_splines)(const struct solver_closure *of, double *r, size_t begin, size_t end);
     void (*spread)(const struct solver_closure *of, const double *x, double *u, size_t begin, size_t end);
-    /* On a grid: the same as `smooth`; from a grid to the next coarser one and back, adding. */
+    /* On a grid: the same as `smooth`; from a grid to the next coarser one, and back, adding. */
     void (*grid_smooth)(const struct solver_closure_grid *grid, double keep, double factor, const double *d, double *x,
                         double *r, double *next, size_t begin, size_t end);
-    void (*grid_sum)(const struct solver_closure_grid *fine, const struct solver_closure_grid *coarse, const double *r,
-                     double *out, size_t begin, size_t end);
+    void (*grid_sum)(const struct solver_closure_grid *fine, const double *r, double *out, size_t begin, size_t end);
     void (*grid_spread)(const struct solver_closure_grid *fine, const double *x, double *out, size_t begin, size_t end);
 };
 SOLVER_DECLARE_LOOPS(struct solver_closure_loops, solver_closure);
 
-/* Weight of spline place `of` within 2^dim parents or 1D pair: that of parent 0 or 1 along an axis. */
+/* What a spline at a place has of parent 0 or 1 along an axis: the next coarser spline is (1, 3, 3, 1) / 4 of these. */
 static inline double solver_closure_share(int32_t place, int parent)
 {
     return (place & 1) == parent ? 0.75 : 0.25;

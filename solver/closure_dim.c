@@ -33,7 +33,7 @@ static inline vec half_distance(const struct solver_closure *of, size_t a, size_
 }
 
 /* Opposite, bit for bit, where a and b change places. */
-static inline vec step_of(const struct solver_closure *of, const double *u, size_t a, size_t b, vec half)
+static inline vec step_of(const double *u, size_t a, size_t b, vec half)
 {
     const double *of_a = u + a * BLOCK;
     const double *of_b = u + b * BLOCK;
@@ -42,7 +42,6 @@ static inline vec step_of(const struct solver_closure *of, const double *u, size
         vec beta = load(of_a + (i + 1) * LANES) + load(of_b + (i + 1) * LANES);
         step += spread(half, i) * beta;
     }
-    (void)of;
     return step;
 }
 
@@ -90,7 +89,7 @@ static inline void image_of(const struct solver_closure *of, const double *u, si
     for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
         size_t b = graph->neighbour[ab];
         vec half = half_distance(of, a, b);
-        vec step = of->weight[ab] * step_of(of, u, a, b, half);
+        vec step = of->weight[ab] * step_of(u, a, b, half);
         sum[0] += step;
         for (int i = 0; i < DIM; i++) {
             sum[i + 1] += spread(half, i) * step;
@@ -157,11 +156,9 @@ static void smooth(const struct solver_closure *of, double keep, double factor, 
     }
 }
 
-static void dot_of(const struct solver_closure *of, const double *x, const double *y, double *sum, size_t begin,
-                   size_t end)
+static void dot_of(const double *x, const double *y, double *sum, size_t begin, size_t end)
 {
     vec total = splat(0.0);
-    (void)of;
     for (size_t i = begin * WIDTH; i < end * WIDTH; i++) {
         total += load(x + i * LANES) * load(y + i * LANES);
     }
@@ -195,7 +192,7 @@ static void change(const struct solver_closure *of, const double *u, double face
     for (size_t a = begin; a < end; a++) {
         for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
             size_t b = graph->neighbour[ab];
-            vec step = face * of->weight[ab] * step_of(of, u, a, b, half_distance(of, a, b));
+            vec step = face * of->weight[ab] * step_of(u, a, b, half_distance(of, a, b));
             for (int k = 0; k < DIM; k++) {
                 pair[ab * PAIR + (size_t)k] += step[k];
             }
@@ -439,10 +436,8 @@ static inline double share_of(const int32_t *place, unsigned parent)
     return share;
 }
 
-static void grid_sum(const struct solver_closure_grid *fine, const struct solver_closure_grid *coarse, const double *r,
-                     double *out, size_t begin, size_t end)
+static void grid_sum(const struct solver_closure_grid *fine, const double *r, double *out, size_t begin, size_t end)
 {
-    (void)coarse;
     for (size_t i = begin; i < end; i++) {
         vec sum = splat(0.0);
         for (size_t n = fine->child_row[i]; n < fine->child_row[i + 1]; n++) {

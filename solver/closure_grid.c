@@ -10,8 +10,9 @@
 
 enum { BITS = 21, MARGIN = 8, SPAN = 2 * SOLVER_CLOSURE_REACH + 1, FEWEST = 4, SLAB = 4, POWERS = 12 };
 /* Of the coarsest matrix, whose diagonal is 1: what is added, and the energy that quadratics get. */
-static const double shift = 3e-2, held = 1e4;
-static const size_t dense_cap[] = {12, 48, 160};
+static const double shift = 1e-3, held = 1e4;
+/* Splines of the coarsest grid at most, in 1D, 2D and 3D. */
+static const size_t coarsest[] = {12, 48, 160};
 
 static size_t power(size_t base, int dim)
 {
@@ -238,10 +239,11 @@ static bool make_finest(struct solver_closure *of, struct solver_error *error)
         key[n] = key[wanted + n] =
             key_of(at[0] + (int64_t)(place % 3), at[1] + (int64_t)(place / 3 % 3), at[2] + (int64_t)(place / 9));
     }
-    bool ok = make_splines(grid, of->cloud->dim, key, wanted, of->loops->lanes, error) &&
-              solver_alloc((void **)&of->cell_spline, wanted, sizeof *of->cell_spline, "splines", error) &&
-              solver_alloc((void **)&of->spline_cell, grid->count * splines, sizeof *of->spline_cell, "splines", error) &&
-              solver_alloc((void **)&of->cell_sum, wanted * of->loops->lanes, sizeof(double), "spline sums", error);
+    bool ok =
+        make_splines(grid, of->cloud->dim, key, wanted, of->loops->lanes, error) &&
+        solver_alloc((void **)&of->cell_spline, wanted, sizeof *of->cell_spline, "splines", error) &&
+        solver_alloc((void **)&of->spline_cell, grid->count * splines, sizeof *of->spline_cell, "splines", error) &&
+        solver_alloc((void **)&of->cell_sum, wanted * of->loops->lanes, sizeof(double), "spline sums", error);
     if (ok) {
         memset(of->spline_cell, 0xff, grid->count * splines * sizeof *of->spline_cell);
         for (size_t n = 0; n < wanted; n++) {
@@ -518,7 +520,7 @@ bool solver_closure_grids(struct solver_closure *of, double radius, struct solve
     size_t lanes = of->loops->lanes;
     bool ok = make_cells(of, radius, error) && make_finest(of, error) && assemble(of, error);
     of->levels = 1;
-    while (ok && of->grid[of->levels - 1].count > dense_cap[of->cloud->dim - 1] && of->levels < SOLVER_CLOSURE_LEVELS) {
+    while (ok && of->grid[of->levels - 1].count > coarsest[of->cloud->dim - 1] && of->levels < SOLVER_CLOSURE_LEVELS) {
         of->levels++;
         ok = coarsen(&of->grid[of->levels - 2], &of->grid[of->levels - 1], lanes, error);
     }

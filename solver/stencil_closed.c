@@ -14,13 +14,12 @@
 #include "solver/stencil.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 /* Rounds, iterations in each, and how far a round goes: multipliers of smooth changes are large, and their differences
  * lose that many digits. */
 enum { ROUNDS = 12, ITERATIONS = 1000 };
-#define per_round (getenv("PR") ? atof(getenv("PR")) : 1e-8)
+static const double per_round = 1e-8;
 /* Residual, relative to a particle's face, that counts as round-off. */
 static const double round_off = 2e-14;
 /* Residual that is still accepted, with its size reported: NUMERICS.md found no effect on errors at 1e-6. */
@@ -70,14 +69,10 @@ static bool project(struct solver_closure *work, struct solver_stencil *stencil,
     double before = INFINITY;
     double worst = residuals(work, stencil, area);
     for (int round = 0; round < ROUNDS && worst > round_off && worst < 0.5 * before; round++) {
-        if (getenv("NULLTEST")) { void nulltest(struct solver_closure*); nulltest(work); }
-        solver_closure_solve(work, fmax(0.3 * round_off, per_round * worst), ITERATIONS);
+        solver_closure_solve(work, fmax(0.5 * round_off, per_round * worst), ITERATIONS);
         change(work, stencil);
         before = worst;
         worst = residuals(work, stencil, area);
-        if (getenv("CLOSURE_TRACE") != NULL) {
-            fprintf(stderr, "round %d: %.2e\n", round, worst);
-        }
     }
     free(area);
     if (!(worst < acceptable)) {
@@ -114,7 +109,7 @@ static bool guess(struct solver_closure *work, struct solver_stencil *stencil, d
                         cloud->V[a] * gradient[ab * dim + k] - cloud->V[b] * gradient[ba * dim + k];
                 }
                 double slope;
-                work->weight[ab] = pow(solver_kernel(2.0 * sqrt(square) / radius, &slope), getenv("WP") ? atof(getenv("WP")) : 1.0);
+                work->weight[ab] = solver_kernel(2.0 * sqrt(square) / radius, &slope);
             }
         }
     }
