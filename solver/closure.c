@@ -9,7 +9,7 @@
 
 /* Products with the matrix before and after a coarser space's correction, and iterations that may pass before the
  * residual is halved. Measured: fewer and more products, or other bounds, cost as much or more. */
-enum { SMOOTH = 4, GRID_SMOOTH = 2, PATIENCE = 40 };
+enum { SMOOTH = 6, GRID_SMOOTH = 2, PATIENCE = 40 };
 /* Bound of the eigenvalues of M over its diagonal blocks: on a pair, (x + y)^2 <= 2 x^2 + 2 y^2. */
 static const double largest = 2.0;
 
