@@ -363,7 +363,7 @@ static void coarse_row(const struct solver_closure_grid *fine, const struct solv
                 const int32_t to[3] = {first[0] + x, first[1] + y, first[2] + z};
                 for (size_t parent = 0; value != 0.0 && parent < parents; parent++) {
                     int32_t place = 0;
-                    for (int axis = dim - 1; axis >= 0; axis--) {
+                    for (size_t axis = (size_t)dim; axis-- > 0;) {
                         place = place * SPAN + (to[axis] >> 1) + (int32_t)(parent >> axis & 1) - at[axis] +
                                 SOLVER_CLOSURE_REACH;
                     }
@@ -404,18 +404,17 @@ static bool hold_quadratics(const struct solver_closure_grid *grid, double *L, s
     }
     for (int degree = 0; degree < 27; degree++) {
         const int of_axis[3] = {degree % 3, degree / 3 % 3, degree / 9};
-        bool beyond = false;
-        for (int axis = grid->dim; axis < 3; axis++) {
-            beyond = beyond || of_axis[axis] > 0;
-        }
+        bool beyond = (grid->dim < 2 && of_axis[1] > 0) || (grid->dim < 3 && of_axis[2] > 0);
         if (beyond || of_axis[0] + of_axis[1] + of_axis[2] > 2) {
             continue;
         }
         double *v = vector + (size_t)made * n;
+        size_t middle = n / 2 * 3;
         for (size_t i = 0; i < n; i++) {
             v[i] = grid->diagonal[i] > 0.0 ? 1.0 / sqrt(grid->diagonal[i]) : 0.0;
             for (int axis = 0; axis < grid->dim; axis++) {
-                double xi = grid->at[i * 3 + (size_t)axis] - grid->at[n / 2 * 3 + (size_t)axis];
+                int32_t xi_of = grid->at[i * 3 + (size_t)axis] - grid->at[middle + (size_t)axis];
+                double xi = xi_of;
                 v[i] *= of_axis[axis] == 0 ? 1.0 : of_axis[axis] == 1 ? xi : xi * xi - 0.25;
             }
         }
@@ -503,7 +502,8 @@ static void bound(struct solver_closure_grid *grid, const struct solver_closure_
             loops->grid_smooth(grid, 0.0, -1.0, grid->d, grid->x, grid->r, grid->next, i, i + 1);
         }
         for (size_t i = 0; i < room; i++) {
-            double weight = grid->diagonal[i / loops->lanes] > 0.0 ? 1.0 / grid->diagonal[i / loops->lanes] : 0.0;
+            size_t row = i / loops->lanes;
+            double weight = grid->diagonal[row] > 0.0 ? 1.0 / grid->diagonal[row] : 0.0;
             before += weight * grid->d[i] * grid->d[i];
             after += weight * grid->next[i] * grid->next[i];
         }
