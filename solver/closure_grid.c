@@ -412,9 +412,9 @@ static bool hold_quadratics(const struct solver_closure_grid *grid, double *L, s
         size_t middle = n / 2 * 3;
         for (size_t i = 0; i < n; i++) {
             v[i] = grid->diagonal[i] > 0.0 ? 1.0 / sqrt(grid->diagonal[i]) : 0.0;
-            for (int axis = 0; axis < grid->dim; axis++) {
-                int32_t xi_of = grid->at[i * 3 + (size_t)axis] - grid->at[middle + (size_t)axis];
-                double xi = xi_of;
+            for (size_t axis = 0; axis < 3; axis++) { /* beyond dim, all places and degrees are 0 */
+                int32_t from = grid->at[i * 3 + axis] - grid->at[middle + axis];
+                double xi = from;
                 v[i] *= of_axis[axis] == 0 ? 1.0 : of_axis[axis] == 1 ? xi : xi * xi - 0.25;
             }
         }
