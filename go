@@ -8,9 +8,8 @@ set -euo pipefail
 here=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
 build=$here/build/release
 
-# Serial OpenBLAS: its results do not depend on the number of cores.
-libraries=(libgsl-dev libhdf5-dev libcunit1-dev libosmesa6-dev libpng-dev liblua5.4-dev libsuitesparse-dev
-  libopenblas-serial-dev libexpat1-dev zlib1g-dev)
+libraries=(libgsl-dev libhdf5-dev libcunit1-dev libosmesa6-dev libpng-dev liblua5.4-dev
+  libexpat1-dev zlib1g-dev)
 packages=(build-essential cmake ninja-build pkg-config python3 "${libraries[@]}") # python3: tests look for it on configuring
 # One version of the checkers, so that they say the same on every system; and VTK, which reads our records.
 test_packages=(clang-14 clang-format-14 clang-tidy-14 libomp-14-dev valgrind libc6-dbg mandoc python3-vtk9)
@@ -21,7 +20,7 @@ fail() { say "$@"; exit 2; }
 elsewhere="On systems without Debian's packages, install these with their headers, then call ./go again:
   a C17 compiler with OpenMP (GCC >= 11 or clang >= 14), CMake >= 3.22, Ninja >= 1.10, pkg-config,
   Python 3, GSL >= 2.7, HDF5 >= 1.10 (serial C library), CUnit 2.1, OSMesa (Mesa < 25.1; later ones have none),
-  libpng >= 1.6, zlib, Expat >= 2.4, Lua 5.4, SuiteSparse (CHOLMOD) >= 5.10 with a serial BLAS.
+  libpng >= 1.6, zlib, Expat >= 2.4, Lua 5.4.
   For './go test' also: clang, clang-format and clang-tidy 14 with libomp, valgrind >= 3.18,
   mandoc, and VTK 9 for Python 3."
 

@@ -28,7 +28,7 @@ configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/assayConfig.cmake.in ${C
   INSTALL_DESTINATION ${assay_package} NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/assayConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/assayConfig.cmake ${CMAKE_BINARY_DIR}/assayConfigVersion.cmake
-  cmake/FindCHOLMOD.cmake cmake/assayGates.cmake cmake/assayGateRun.cmake DESTINATION ${assay_package})
+  cmake/assayGates.cmake cmake/assayGateRun.cmake DESTINATION ${assay_package})
 
 file(RELATIVE_PATH assay_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" assay_prefix ${assay_prefix})

@@ -90,7 +90,6 @@ static bool run_once(const struct verify_mms_case *which, int n, double cfl, con
 {
     *done = (struct done){.scene = NULL};
     bool good = open_scene(which, n, cfl, integrator, &done->scene, error);
-#pragma omp critical(verify_mms_create) /* the serial BLAS under CHOLMOD is not for several threads at a time */
     good = good && verify_run_create(done->scene, &done->run, error);
     good = good && advance(done, spoiled, error) && solver_run_output(done->run, &done->output, error);
     if (good) {

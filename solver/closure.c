@@ -1,0 +1,278 @@
+#include "solver/closure.h"
+
+#include "solver/memory.h"
+#include "solver/pieces.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Products with the matrix before and after a coarser space's correction, and iterations that may pass before the
+ * residual is halved. Measured: fewer and more products, or other bounds, cost as much or more. */
+enum { SMOOTH = 6, GRID_SMOOTH = 2, PATIENCE = 40 };
+/* Bound of the eigenvalues of M over its diagonal blocks: on a pair, (x + y)^2 <= 2 x^2 + 2 y^2. */
+static const double largest = 2.0;
+
+static size_t width_of(const struct solver_closure *of)
+{
+    return (size_t)(of->cloud->dim + 1) * of->loops->lanes;
+}
+
+/* Does it for all pieces `at` of a total, in parallel. */
+#define OVER_PIECES(total, ...)                                                                                        \
+    do {                                                                                                               \
+        size_t over_total = (total);                                                                                   \
+        _Pragma("omp parallel for schedule(static)") for (size_t piece = 0; piece < solver_pieces(over_total);         \
+                                                          piece++)                                                     \
+        {                                                                                                              \
+            struct solver_piece at = solver_piece_at(piece, over_total);                                               \
+            __VA_ARGS__;                                                                                               \
+        }                                                                                                              \
+    } while (false)
+
+/* --- the cycle --- */
+
+/* Smoothing is the polynomial in M / diagonal that leaves least of an error, each part of it by what a coarser space
+ * leaves: Chebyshev's of the fourth kind (J. Lottes, "Optimal polynomial smoothers for multigrid V-cycles", 2023).
+ * Coefficients of its recurrence: step i + 1 is keep(i) of the last and factor(i) of the residual. */
+static double keep_of(int i)
+{
+    return i > 0 ? (2.0 * i - 1.0) / (2.0 * i + 3.0) : 0.0;
+}
+
+static double factor_of(int i)
+{
+    return (8.0 * i + 4.0) / (2.0 * i + 3.0);
+}
+
+static void swap(double **x, double **y)
+{
+    double *kept = *x;
+    *x = *y;
+    *y = kept;
+}
+
+static void solve_dense(struct solver_closure_grid *grid, size_t lanes)
+{
+    size_t n = grid->count;
+    const double *L = grid->factor;
+    for (size_t lane = 0; lane < lanes; lane++) {
+        double *x = grid->next;
+        for (size_t i = 0; i < n; i++) {
+            double sum = grid->r[i * lanes + lane] * sqrt(grid->diagonal[i]);
+            for (size_t j = 0; j < i; j++) {
+                sum -= L[i * n + j] * x[j];
+            }
+            x[i] = sum / L[i * n + i];
+        }
+        for (size_t i = n; i-- > 0;) {
+            x[i] /= L[i * n + i];
+            for (size_t j = 0; j < i; j++) {
+                x[j] -= L[i * n + j] * x[i];
+            }
+            grid->x[i * lanes + lane] = x[i] * sqrt(grid->diagonal[i]);
+        }
+    }
+}
+
+/* Takes steps until GRID_SMOOTH, grid->d being the step before `first`; the last leaves no residual where none is
+ * asked for. */
+static void grid_smooth(const struct solver_closure *of, struct solver_closure_grid *grid, int first, bool residual)
+{
+    for (int i = first; i < GRID_SMOOTH + residual; i++) {
+        double *next = i < GRID_SMOOTH ? grid->next : NULL;
+        OVER_PIECES(grid->count, of->loops->grid_smooth(grid, keep_of(i), factor_of(i) / grid->largest, grid->d,
+                                                        grid->x, grid->r, next, at.begin, at.end));
+        swap(&grid->d, &grid->next);
+    }
+    for (size_t n = 0; !residual && n < grid->count * of->loops->lanes; n++) {
+        grid->x[n] += grid->d[n];
+    }
+}
+
+/* grid->x from grid->r. */
+static void grid_cycle(struct solver_closure *of, int level)
+{
+    struct solver_closure_grid *grid = &of->grid[level];
+    size_t lanes = of->loops->lanes;
+    if (level == of->levels - 1) {
+        solve_dense(grid, lanes);
+        return;
+    }
+    struct solver_closure_grid *coarse = grid + 1;
+    double factor = factor_of(0) / grid->largest;
+    for (size_t n = 0; n < grid->count * lanes; n++) {
+        grid->x[n] = 0.0;
+        grid->d[n] = factor * grid->diagonal[n / lanes] * grid->r[n];
+    }
+    grid_smooth(of, grid, 1, true);
+    OVER_PIECES(coarse->count, of->loops->grid_sum(grid, grid->r, coarse->r, at.begin, at.end));
+    grid_cycle(of, level + 1);
+    memset(grid->d, 0, grid->count * lanes * sizeof(double));
+    OVER_PIECES(grid->count, of->loops->grid_spread(grid, coarse->x, grid->d, at.begin, at.end));
+    grid_smooth(of, grid, 0, false);
+}
+
+/* The same on the particles: of->step is the step before `first`, of->left the residual. */
+static void smooth(struct solver_closure *of, double *x, int first, bool residual)
+{
+    static const double one[4] __attribute__((aligned(64))) = {1.0, 1.0, 1.0, 1.0};
+    for (int i = first; i < SMOOTH + residual; i++) {
+        double *next = i < SMOOTH ? of->next : NULL;
+        OVER_PIECES(of->cloud->count, of->loops->smooth(of, keep_of(i), factor_of(i) / largest, of->step, x, of->left,
+                                                        next, at.begin, at.end));
+        swap(&of->step, &of->next);
+    }
+    if (!residual) {
+        OVER_PIECES(of->cloud->count, of->loops->add(of, one, of->step, x, at.begin, at.end));
+    }
+}
+
+void solver_closure_cycle(struct solver_closure *of, const double *r, double *z)
+{
+    const struct solver_closure_loops *loops = of->loops;
+    size_t count = of->cloud->count;
+    size_t bytes = count * width_of(of) * sizeof(double);
+    memcpy(of->left, r, bytes);
+    memset(z, 0, bytes);
+    OVER_PIECES(count, loops->precondition(of, factor_of(0) / largest, r, of->step, at.begin, at.end));
+    smooth(of, z, 1, true);
+    OVER_PIECES(of->cell_count, loops->sum_cells(of, of->left, at.begin, at.end));
+    OVER_PIECES(of->grid[0].count, loops->sum_splines(of, of->grid[0].r, at.begin, at.end));
+    grid_cycle(of, 0);
+    memset(of->step, 0, bytes);
+    OVER_PIECES(count, loops->spread(of, of->grid[0].x, of->step, at.begin, at.end));
+    smooth(of, z, 0, false);
+}
+
+/* --- the iteration --- */
+
+/* x . y of each component. */
+static void dot(struct solver_closure *of, const double *x, const double *y, double sum[4])
+{
+    size_t lanes = of->loops->lanes;
+    OVER_PIECES(of->cloud->count, of->loops->dot(x, y, of->partial + piece * lanes, at.begin, at.end));
+    for (size_t lane = 0; lane < lanes; lane++) {
+        sum[lane] = 0.0;
+        for (size_t piece = 0; piece < solver_pieces(of->cloud->count); piece++) {
+            sum[lane] += of->partial[piece * lanes + lane];
+        }
+    }
+}
+
+/* sign x / y of each component; 0 where a component has nothing left. */
+static void ratio(const struct solver_closure *of, double sign, const double x[4], const double y[4], double out[4])
+{
+    for (size_t lane = 0; lane < of->loops->lanes; lane++) {
+        out[lane] = y[lane] > 0.0 ? sign * x[lane] / y[lane] : 0.0;
+    }
+}
+
+double solver_closure_largest(const struct solver_closure *of, const double *r)
+{
+    size_t room = of->cloud->count * width_of(of);
+    double most = 0.0;
+    bool finite = true;
+#pragma omp parallel for schedule(static) reduction(max : most) reduction(&& : finite)
+    for (size_t i = 0; i < room; i++) {
+        most = fmax(most, fabs(r[i]));
+        finite = finite && isfinite(r[i]);
+    }
+    return finite ? most : NAN;
+}
+
+double solver_closure_solve(struct solver_closure *of, double enough, int most)
+{
+    const struct solver_closure_loops *loops = of->loops;
+    size_t count = of->cloud->count;
+    size_t bytes = count * width_of(of) * sizeof(double);
+    double square[4] = {0}, before[4], curve[4];
+    double factor[4] __attribute__((aligned(64))) = {0};
+    double back[4] __attribute__((aligned(64))) = {0};
+    double left = solver_closure_largest(of, of->residual), best = left;
+    memset(of->solution, 0, bytes);
+    solver_closure_cycle(of, of->residual, of->z);
+    OVER_PIECES(count, loops->apply(of, of->z, of->z_image, at.begin, at.end));
+    dot(of, of->z, of->z_image, square);
+    memcpy(of->direction, of->z, bytes);
+    memcpy(of->image, of->z_image, bytes);
+    for (int i = 0, since = 0; i < most && left > enough && since < PATIENCE; i++, since++) {
+        solver_closure_cycle(of, of->image, of->back);
+        dot(of, of->image, of->back, curve);
+        ratio(of, 1.0, square, curve, factor);
+        ratio(of, -1.0, square, curve, back);
+        OVER_PIECES(count, loops->add(of, factor, of->direction, of->solution, at.begin, at.end);
+                    loops->add(of, back, of->image, of->residual, at.begin, at.end);
+                    loops->add(of, back, of->back, of->z, at.begin, at.end));
+        OVER_PIECES(count, loops->apply(of, of->z, of->z_image, at.begin, at.end));
+        memcpy(before, square, sizeof square);
+        dot(of, of->z, of->z_image, square);
+        ratio(of, 1.0, square, before, factor);
+        OVER_PIECES(count, loops->scale_add(of, factor, of->z, of->direction, at.begin, at.end);
+                    loops->scale_add(of, factor, of->z_image, of->image, at.begin, at.end));
+        of->iterations++;
+        left = solver_closure_largest(of, of->residual);
+        if (left < 0.5 * best) {
+            best = left;
+            since = 0;
+        }
+    }
+    return left;
+}
+
+bool solver_closure_open(struct solver_closure *of, const struct solver_cloud *cloud, const struct solver_graph *graph,
+                         struct solver_error *error)
+{
+    static const struct solver_closure_loops *const loops[][3] = SOLVER_LOOPS(solver_closure);
+    size_t count = cloud->count, dim = (size_t)cloud->dim;
+    of->cloud = cloud;
+    of->graph = graph;
+    of->loops = loops[solver_path()][dim - 1];
+    of->scale = 0.5 / cloud->spacing;
+    size_t lanes = of->loops->lanes;
+    size_t room = count * (dim + 1) * lanes;
+    double **const vectors[] = {&of->residual, &of->solution, &of->direction, &of->image, &of->z,
+                                &of->z_image,  &of->back,     &of->left,      &of->step,  &of->next};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
+        if (!solver_alloc((void **)vectors[i], room, sizeof(double), "multipliers", error)) {
+            return false;
+        }
+    }
+    if (!solver_alloc((void **)&of->X, count * lanes, sizeof(double), "places", error) ||
+        !solver_alloc((void **)&of->weight, graph->row[count], sizeof(double), "pair weights", error) ||
+        !solver_alloc((void **)&of->inverse, count * (dim + 1) * (dim + 1), sizeof(double), "diagonal blocks", error) ||
+        !solver_alloc((void **)&of->partial, solver_pieces(count) * lanes, sizeof(double), "sums", error)) {
+        return false;
+    }
+    for (size_t a = 0; a < count; a++) {
+        for (size_t i = 0; i < dim; i++) {
+            of->X[a * lanes + i] = cloud->X[a * dim + i];
+        }
+    }
+    return true;
+}
+
+bool solver_closure_ready(struct solver_closure *of, double radius, struct solver_error *error)
+{
+    OVER_PIECES(of->cloud->count, of->loops->blocks(of, at.begin, at.end));
+    return solver_closure_grids(of, radius, error);
+}
+
+void solver_closure_close(struct solver_closure *of)
+{
+    solver_closure_grids_free(of);
+    free(of->residual);
+    free(of->solution);
+    free(of->direction);
+    free(of->image);
+    free(of->z);
+    free(of->z_image);
+    free(of->back);
+    free(of->left);
+    free(of->step);
+    free(of->next);
+    free(of->X);
+    free(of->weight);
+    free(of->inverse);
+    free(of->partial);
+}

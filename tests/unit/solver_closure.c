@@ -1,0 +1,210 @@
+/* The multipliers of a closed stencil: nested spaces that are what they claim, iterations that do not grow with the
+ * cloud, equations without a solution, and the same bytes for any number of threads. */
+#include "solver/closure.h"
+#include "solver/kernel.h"
+#include "solver/memory.h"
+#include "tests/unit/clouds.h"
+#include "tests/unit/unit.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct system {
+    struct solver_cloud *cloud;
+    struct solver_graph graph;
+    struct solver_closure closure;
+    size_t width; /* numbers of a vector per particle */
+};
+
+static void open_system(struct system *of, int dim, int edge, double perturb, double support)
+{
+    struct solver_box box = clouds_box(dim, edge, perturb, 29);
+    double radius = support * box.spacing * (1.0 - solver_kernel_margin);
+    struct solver_error error;
+    *of = (struct system){.cloud = clouds_make(&box)};
+    CU_ASSERT_PTR_NOT_NULL_FATAL(of->cloud);
+    CU_ASSERT_FATAL(solver_graph_build(of->cloud, radius, &of->graph, &error));
+    CU_ASSERT_FATAL(solver_closure_open(&of->closure, of->cloud, &of->graph, &error));
+    for (size_t a = 0; a < of->cloud->count; a++) {
+        for (size_t ab = of->graph.row[a]; ab < of->graph.row[a + 1]; ab++) {
+            double square = 0.0, slope;
+            for (size_t i = 0; i < (size_t)dim; i++) {
+                double d = of->cloud->X[of->graph.neighbour[ab] * (size_t)dim + i] - of->cloud->X[a * (size_t)dim + i];
+                square += d * d;
+            }
+            of->closure.weight[ab] = solver_kernel(2.0 * sqrt(square) / radius, &slope);
+        }
+    }
+    CU_ASSERT_FATAL(solver_closure_ready(&of->closure, radius, &error));
+    of->width = (size_t)(dim + 1) * of->closure.loops->lanes;
+}
+
+static void close_system(struct system *of)
+{
+    solver_closure_close(&of->closure);
+    solver_graph_free(&of->graph);
+    solver_cloud_free(of->cloud);
+}
+
+/* Splines x of a level, as multipliers of particles. */
+static double *on_particles(struct system *of, int level, const double *x)
+{
+    struct solver_closure *closure = &of->closure;
+    struct solver_error error;
+    size_t lanes = closure->loops->lanes;
+    double *fine = NULL, *coarse = NULL;
+    CU_ASSERT_FATAL(solver_alloc((void **)&coarse, closure->grid[level].count * lanes, sizeof *x, "splines", &error));
+    memcpy(coarse, x, closure->grid[level].count * lanes * sizeof *x);
+    for (; level > 0; level--) {
+        const struct solver_closure_grid *grid = &closure->grid[level - 1];
+        CU_ASSERT_FATAL(solver_alloc((void **)&fine, grid->count * lanes, sizeof *x, "splines", &error));
+        closure->loops->grid_spread(grid, coarse, fine, 0, grid->count);
+        free(coarse);
+        coarse = fine;
+    }
+    CU_ASSERT_FATAL(solver_alloc((void **)&fine, of->cloud->count * of->width, sizeof *x, "multipliers", &error));
+    closure->loops->spread(closure, coarse, fine, 0, of->cloud->count);
+    free(coarse);
+    return fine;
+}
+
+/* x . A x of a level's matrix is u . M u of what x is on particles; and 0 for x that are quadratic functions. */
+static void energies(struct system *of, int level)
+{
+    struct solver_closure *closure = &of->closure;
+    const struct solver_closure_grid *grid = &closure->grid[level];
+    size_t lanes = closure->loops->lanes, room = of->cloud->count * of->width;
+    double *x = NULL, *image = closure->image, scale = 0.0;
+    struct solver_error error;
+    uint64_t state = 7;
+    CU_ASSERT_FATAL(solver_alloc((void **)&x, grid->count * lanes, sizeof *x, "splines", &error));
+    for (int quadratic = 0; quadratic < 2; quadratic++) {
+        for (size_t i = 0; i < grid->count; i++) {
+            double xi = grid->at[i * 3], eta = of->cloud->dim > 1 ? grid->at[i * 3 + 1] : 0.0;
+            x[i * lanes] = quadratic ? xi * xi - 0.25 + 3.0 * xi - xi * eta : clouds_random(&state);
+        }
+        double of_matrix = 0.0, of_particles = 0.0;
+        for (size_t i = 0; i < grid->count; i++) {
+            for (size_t ij = grid->row[i]; ij < grid->row[i + 1]; ij++) {
+                of_matrix += x[i * lanes] * grid->value[ij] * x[grid->column[ij] * lanes];
+                scale += fabs(x[i * lanes] * grid->value[ij] * x[grid->column[ij] * lanes]);
+            }
+        }
+        double *u = on_particles(of, level, x);
+        closure->loops->apply(closure, u, image, 0, of->cloud->count);
+        for (size_t i = 0; i < room; i += lanes) {
+            of_particles += u[i] * image[i];
+        }
+        CU_ASSERT(fabs(of_matrix - of_particles) <= 1e-12 * scale);
+        CU_ASSERT(of_particles >= 0.0);
+        CU_ASSERT(quadratic ? of_particles <= 1e-14 * scale : of_particles > 1e-8 * scale);
+        free(u);
+    }
+    free(x);
+}
+
+static void spaces(void)
+{
+    for (int dim = 1; dim <= 3; dim++) {
+        struct system of;
+        open_system(&of, dim, dim == 1 ? 90 : dim == 2 ? 24 : 12, 0.2, 2.1);
+        CU_ASSERT(of.closure.levels >= 3);
+        for (int level = 0; level < of.closure.levels; level++) {
+            energies(&of, level);
+        }
+        close_system(&of);
+    }
+}
+
+/* The right-hand side of random changes of pairs, which has a solution. */
+static void fill(struct system *of)
+{
+    uint64_t state = 3;
+    double *u = of->closure.z;
+    for (size_t i = 0; i < of->cloud->count * of->width; i++) {
+        u[i] = i % of->closure.loops->lanes < (size_t)of->cloud->dim ? clouds_random(&state) : 0.0;
+    }
+    of->closure.loops->apply(&of->closure, u, of->closure.residual, 0, of->cloud->count);
+}
+
+/* Eight digits take few iterations, and hardly more for ten times as many particles; in 1D, where a particle has four
+ * neighbours, and on lattices they grow slowly. */
+static void iterations(void)
+{
+    static const struct {
+        int dim, edge[2];
+        double perturb, support;
+        int most;
+    } cases[] = {
+        {1, {40, 400}, 0.2, 3.0, 60}, {2, {12, 48}, 0.2, 2.0, 50}, {2, {12, 48}, 0.45, 2.6, 40},
+        {3, {6, 16}, 0.15, 2.0, 40},  {3, {6, 16}, 0.0, 2.2, 40},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        for (int size = 0; size < 2; size++) {
+            struct system of;
+            open_system(&of, cases[i].dim, cases[i].edge[size], cases[i].perturb, cases[i].support);
+            fill(&of);
+            double first = solver_closure_largest(&of.closure, of.closure.residual);
+            double left = solver_closure_solve(&of.closure, 1e-8 * first, 1000);
+            (void)printf("\n    %dD, %6zu particles, perturb %.2f, support %.1f: %d iterations", cases[i].dim,
+                         of.cloud->count, cases[i].perturb, cases[i].support, of.closure.iterations);
+            CU_ASSERT(left <= 1e-8 * first && of.closure.iterations <= cases[i].most);
+            close_system(&of);
+        }
+    }
+}
+
+/* What no change of pairs can give: all particles draw the same way. The iteration stops, and says what is left. */
+static void no_solution(void)
+{
+    for (int dim = 1; dim <= 3; dim++) {
+        struct system of;
+        open_system(&of, dim, 8, 0.2, 2.2);
+        for (size_t a = 0; a < of.cloud->count; a++) {
+            of.closure.residual[a * of.width] = 1e-3;
+        }
+        double left = solver_closure_solve(&of.closure, 1e-12, 1000);
+        CU_ASSERT(left >= 1e-3 && left < 1.0);
+        CU_ASSERT(of.closure.iterations < 200);
+        of.closure.residual[0] = NAN;
+        CU_ASSERT(isnan(solver_closure_solve(&of.closure, 1e-12, 1000)));
+        close_system(&of);
+    }
+}
+
+static void same_bytes(void)
+{
+    int most = omp_get_max_threads();
+    for (int dim = 1; dim <= 3; dim++) {
+        struct system one, three;
+        int edge = dim == 1 ? 900 : dim == 2 ? 40 : 11;
+        omp_set_num_threads(1);
+        open_system(&one, dim, edge, 0.2, 2.1);
+        fill(&one);
+        (void)solver_closure_solve(&one.closure, 0.0, 20);
+        omp_set_num_threads(3);
+        open_system(&three, dim, edge, 0.2, 2.1);
+        fill(&three);
+        (void)solver_closure_solve(&three.closure, 0.0, 20);
+        size_t bytes = one.cloud->count * one.width * sizeof(double);
+        CU_ASSERT(one.closure.iterations == 20 && one.cloud->count > 800);
+        CU_ASSERT_EQUAL(memcmp(one.closure.solution, three.closure.solution, bytes), 0);
+        CU_ASSERT_EQUAL(memcmp(one.closure.residual, three.closure.residual, bytes), 0);
+        close_system(&one);
+        close_system(&three);
+    }
+    omp_set_num_threads(most);
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"nested spaces", spaces},
+        {"iterations", iterations},
+        {"no solution", no_solution},
+        {"same bytes for 1 and 3 threads", same_bytes},
+    };
+    return unit_main("solver closure", tests, sizeof tests / sizeof *tests);
+}
