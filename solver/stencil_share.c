@@ -7,7 +7,7 @@
 #include <string.h>
 
 enum {
-    MOST_ROWS = 1 << 14, /* different ones; more would leave the cache as well */
+    MOST_ROWS = 1 << 13, /* different ones; more would leave the cache as well */
     SLOTS = 2 * MOST_ROWS,
     WORTH = 4 /* pairs that one which is kept must stand for */
 };
