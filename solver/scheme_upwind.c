@@ -34,6 +34,7 @@ static void bind_stencil(struct solver_upwind_system *system)
     system->work.row = stencil->graph.row;
     system->work.neighbour = stencil->graph.neighbour;
     system->work.pair = stencil->pair;
+    system->work.shared = stencil->shared;
     system->work.narrow = stencil->narrow;
     system->work.unit = stencil->unit;
     system->work.transposed = stencil->transposed;
@@ -65,6 +66,7 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     }
     system->residuals = solver_stencil_check(*stencil, cloud);
     return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
+           solver_stencil_share(*stencil, error) &&
            (strcmp(scene->precision, "mixed") != 0 || solver_stencil_narrow(*stencil, error));
 }
 
@@ -192,9 +194,10 @@ static void discrete_F(const struct solver_upwind_system *system, size_t a, doub
     const double *x = system->work.x;
     size_t dim = (size_t)stencil->dim;
     size_t lanes = system->loops->lanes;
+    size_t shift = solver_stencil_shift(stencil, a);
     memset(F, 0, dim * dim * sizeof *F);
     for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
-        const double *C = solver_stencil_C(stencil, ab);
+        const double *C = solver_stencil_C(stencil, ab + shift);
         size_t b = stencil->graph.neighbour[ab];
         for (size_t i = 0; i < dim; i++) {
             double d = x[b * lanes + i] - x[a * lanes + i];
