@@ -40,7 +40,8 @@ static const struct verify_command commands[] = {
          "A checkpoint holds the scene and its overrides; nothing else is needed. The run that goes on gives the\n"
          "same bytes as one that was never stopped, for any number of threads (--set threads=N, and no other key).\n"
          "Results go to the checkpoint's folder unless --out says otherwise. One of another version of the program\n"
-         "is refused, and one whose scene's file has changed since, unless --as-stored is given.",
+         "is refused, one of another compiler or of loops that round otherwise (ASSAY_ISA), and one whose scene's\n"
+         "file has changed since, unless --as-stored is given.",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_OUT | VERIFY_TAKES_ERROR | VERIFY_TAKES_STUDY | VERIFY_TAKES_CHECKPOINT,
      .least = 1,
      .most = 1,
