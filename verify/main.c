@@ -139,6 +139,8 @@ static const struct verify_command commands[] = {
          "without it all are measured. --set goes to every run; keys that the rows set themselves are refused.\n\n"
          "  assay extremes scale\n"
          "  assay extremes cfl --json cfl.json\n\n"
+         "SIGINT (Ctrl-C), SIGTERM and SIGHUP end it by the signal; the rows before stand, in the JSON file too,\n"
+         "which then says by what it was stopped, and during which extreme.\n\n"
          "Exit code: 0 all bounds hold; 1 one does not; 2 a word or a file is wrong; 3 a run that had to end broke\n"
          "down.",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_JSON,
