@@ -148,10 +148,7 @@ static void write_end(FILE *file, const struct tally *tally)
     } else {
         (void)fputs("\"stopped_by\": null, \"unfinished\": null", file);
     }
-    (void)fprintf(file, ", \"pass\": %s}\n",
-                  tally->failed > 0           ? "false"
-                  : tally->unfinished != NULL ? "null"
-                                              : "true");
+    (void)fprintf(file, ", \"pass\": %s}\n", tally->failed > 0 ? "false" : tally->unfinished != NULL ? "null" : "true");
 }
 
 /* The rows, and as JSON at `path` unless that is NULL; whole or not at all. */

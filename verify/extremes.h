@@ -55,7 +55,8 @@ struct verify_trial {
 bool verify_trial_open(const struct verify_extremes *in, const char *scene, struct verify_trial *trial,
                        struct solver_error *error, const char *format, ...) __attribute__((format(printf, 5, 6)));
 void verify_trial_close(struct verify_trial *trial);
-/* To the scene's end time, or many steps. Both, and opening, fail (SOLVER_STOPPED) once the program was asked to end. */
+/* To the scene's end time, or many steps. Both, and opening, fail (SOLVER_STOPPED) once the program was asked to end.
+ */
 bool verify_trial_finish(struct verify_trial *trial, struct solver_error *error);
 bool verify_trial_steps(struct verify_trial *trial, size_t steps, struct solver_error *error);
 /* Root mean square of the velocities [m/s] and largest of them; NaN if there is no output. */

@@ -153,7 +153,8 @@ static const struct verify_command commands[] = {
          "Prints the memory of every array [B/particle] and the operations of every term [flop/particle-step], as\n"
          "declared beside the code and held to the allocator and to counted operations by tests; the time of a\n"
          "particle's step as measured [ns], on one thread unless --set threads says otherwise; and all three for the\n"
-         "scene without each item that a key can leave out. A measurement, not a test.\n\n"
+         "scene without each item that a key can leave out. A measurement, not a test. SIGINT (Ctrl-C), SIGTERM\n"
+         "and SIGHUP end it by the signal after the item at hand; what was measured is printed and written.\n\n"
          "  assay cost swinging-cube\n"
          "  assay cost taylor-bar --set n=2 --json cost.json",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_JSON,
