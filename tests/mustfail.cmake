@@ -93,7 +93,10 @@ function(assay_unit_mutant name unit test)
     set(libraries assay_verify)
   endif()
   assay_mutate(${name} ${libraries})
-  add_executable(mutant_${name} ${objects} unit/${unit}.c ${unit_frame})
+  foreach(library ${libraries}) # run once, and compiled each time
+    target_compile_options(mutated_${name}_${library} PRIVATE -O1)
+  endforeach()
+  add_executable(mutant_${name} ${objects} $<TARGET_OBJECTS:test_${unit}> ${unit_frame})
   string(REGEX MATCH "^[a-z]+" room ${unit})
   target_link_libraries(mutant_${name} PRIVATE assay_${room} PkgConfig::CUNIT)
   assay_test(mustfail-${name} LABELS unit mustfail ENVIRONMENT ASSAY_ISA=baseline
