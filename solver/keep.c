@@ -162,81 +162,79 @@ void solver_keep_close(struct solver_keeper *keeper)
     *keeper = (struct solver_keeper){.path = keeper->path};
 }
 
-/* The head of the next block, of that name, and where its entries lie. */
-static bool next_block(struct solver_keeper *keeper, const char *name, struct solver_keep_head *head, const void **data,
-                       struct solver_error *error)
+/* Where the entries of the next block lie, which must have that name; NULL: it is refused. */
+static const void *next_block(struct solver_keeper *keeper, const char *name, struct solver_keep_head *head,
+                              struct solver_error *error)
 {
     size_t left = keeper->size - keeper->at;
+    *head = (struct solver_keep_head){.width = 0};
     if (left < sizeof *head) {
-        return solver_keep_refuse(keeper, error, "it has no \"%s\"", name);
+        (void)solver_keep_refuse(keeper, error, "it has no \"%s\"", name);
+        return NULL;
     }
     memcpy(head, keeper->bytes + keeper->at, sizeof *head);
     if (strncmp(head->name, name, sizeof head->name) != 0) {
-        return solver_keep_refuse(keeper, error, "it has \"%.47s\" where \"%s\" was expected", head->name, name);
+        (void)solver_keep_refuse(keeper, error, "it has \"%.47s\" where \"%s\" was expected", head->name, name);
+        return NULL;
     }
     left -= sizeof *head;
     if (head->width > 0 && (head->count > left / head->width || filled(head->width * head->count) > left)) {
-        return solver_keep_refuse(keeper, error,
-                                  "its \"%s\" claims %llu entries of %llu bytes, and %zu bytes are there", name,
-                                  (unsigned long long)head->count, (unsigned long long)head->width, left);
+        (void)solver_keep_refuse(keeper, error, "its \"%s\" claims %llu entries of %llu bytes, and %zu bytes are there",
+                                 name, (unsigned long long)head->count, (unsigned long long)head->width, left);
+        return NULL;
     }
-    *data = keeper->bytes + keeper->at + sizeof *head;
+    const void *entries = keeper->bytes + keeper->at + sizeof *head;
     keeper->at += sizeof *head + filled(head->width * head->count);
-    return true;
+    return entries;
 }
 
-/* The next block, which must have that many entries of that width. */
-static bool expect(struct solver_keeper *keeper, const char *name, size_t width, size_t count, const void **data,
-                   struct solver_error *error)
+/* The same of a block that must have so many entries of that width. */
+static const void *expect(struct solver_keeper *keeper, const char *name, size_t width, size_t count,
+                          struct solver_error *error)
 {
     struct solver_keep_head head;
-    if (!next_block(keeper, name, &head, data, error)) {
-        return false;
+    const void *entries = next_block(keeper, name, &head, error);
+    if (entries != NULL && (head.width != width || head.count != count)) {
+        (void)solver_keep_refuse(keeper, error,
+                                 "its \"%s\" has %llu entries of %llu bytes, and the scene as this program runs it %zu "
+                                 "of %zu",
+                                 name, (unsigned long long)head.count, (unsigned long long)head.width, count, width);
+        return NULL;
     }
-    return (head.width == width && head.count == count) ||
-           solver_keep_refuse(keeper, error,
-                              "its \"%s\" has %llu entries of %llu bytes, and the scene as this program runs it %zu of "
-                              "%zu",
-                              name, (unsigned long long)head.count, (unsigned long long)head.width, count, width);
+    return entries;
 }
 
 bool solver_keep_peek(struct solver_keeper *keeper, const char *name, const void **data, size_t *size,
                       struct solver_error *error)
 {
     struct solver_keep_head head;
-    if (!next_block(keeper, name, &head, data, error)) {
-        return false;
-    }
+    *data = next_block(keeper, name, &head, error);
     *size = head.width * head.count;
-    return true;
+    return *data != NULL;
 }
 
 bool solver_keep(struct solver_keeper *keeper, const char *name, void *data, size_t width, size_t count,
                  struct solver_error *error)
 {
-    const void *found = NULL;
     if (!keeper->reads) {
         return add(keeper, name, data, width, count, error);
     }
-    if (!expect(keeper, name, width, count, &found, error)) {
-        return false;
-    }
-    if (width * count > 0) {
+    const void *found = expect(keeper, name, width, count, error);
+    if (found != NULL && width * count > 0) {
         memcpy(data, found, width * count);
     }
-    return true;
+    return found != NULL;
 }
 
 bool solver_keep_same(struct solver_keeper *keeper, const char *name, const void *data, size_t width, size_t count,
                       struct solver_error *error)
 {
-    const void *found = NULL;
     if (!keeper->reads) {
         return add(keeper, name, data, width, count, error);
     }
-    return expect(keeper, name, width, count, &found, error) &&
-           (memcmp(data, found, width * count) == 0 ||
-            solver_keep_refuse(keeper, error, "its \"%s\" are not as this program has them", name));
+    const void *found = expect(keeper, name, width, count, error);
+    return found != NULL && (memcmp(data, found, width * count) == 0 ||
+                             solver_keep_refuse(keeper, error, "its \"%s\" are not as this program has them", name));
 }
 
 bool solver_keep_end(const struct solver_keeper *keeper, struct solver_error *error)

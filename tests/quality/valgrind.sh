@@ -47,7 +47,7 @@ declare -A only=(
 declare -A without=(
   [test_solver_run_walls]="carried along"      # walls of every kind in every dimension: 25 s
   [test_solver_stencil]="every builder in 3D"  # schemes and materials are run in 3D: 20 s
-  [test_solver_flow]="work is stored or dissipated"
+  [test_solver_flow]="work is stored or dissipated; order of the return map" # thousands of return maps: 8 s
   [test_solver_cost]="so it is of what few scenes ask for" # thirty scenes: 8 s
 )
 while IFS='|' read -r program tests; do
