@@ -244,9 +244,9 @@ def refused(place):
     checkpoint.write_bytes(other + b"assaySUM" + struct.pack("<Q", checksum(other)))
     place.run("again", again, 2, "assay 0.0.9 wrote it, and this is assay")
     at = data.index(b"build\0") + 64
-    other = data[:at] + b"XXX" + data[at + 3:-16]
+    other = data[:at] + b"YYY" + data[at + 3:-16]
     checkpoint.write_bytes(other + b"assaySUM" + struct.pack("<Q", checksum(other)))
-    place.run("again", again, 2, "a build by XXX")
+    place.run("again", again, 2, "a build by YYY")
     checkpoint.write_bytes(data)
     if "baseline" not in subprocess.check_output([place.assay, "--version"], text=True): # there are other loops
         place.run("again", again, 2, "those for baseline have separate ones", isa="baseline")

@@ -46,6 +46,7 @@ declare -A only=(
 # Of others these are left out, beside what repeats.txt names: the sanitizers see them.
 declare -A without=(
   [test_solver_run_walls]="carried along"      # walls of every kind in every dimension: 25 s
+  [test_solver_run_faces]="faces hold their components, also on edges and in corners" # every kind on every body: 27 s
   [test_solver_stencil]="every builder in 3D"  # schemes and materials are run in 3D: 20 s
   [test_solver_flow]="work is stored or dissipated; order of the return map" # thousands of return maps: 8 s
   [test_solver_cost]="so it is of what few scenes ask for" # thirty scenes: 8 s
