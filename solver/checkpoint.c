@@ -1,7 +1,9 @@
 #include "solver/checkpoint.h"
 
+#include "solver/build.h"
 #include "solver/keep.h"
 #include "solver/memory.h"
+#include "solver/path.h"
 #include "solver/run_internal.h"
 
 #include <math.h>
@@ -20,11 +22,11 @@ struct solver_checkpoint {
 
 static bool keep_place(struct solver_keeper *keeper, struct solver_run *run, struct solver_error *error)
 {
-    return solver_keep(keeper, "time", &run->time, sizeof run->time, error) &&
-           solver_keep(keeper, "step", &run->step, sizeof run->step, error) &&
-           solver_keep(keeper, "work of loads", &run->external, sizeof run->external, error) &&
-           solver_keep(keeper, "numerical dissipation", &run->numerical, sizeof run->numerical, error) &&
-           solver_keep(keeper, "seconds", &run->seconds, sizeof run->seconds, error);
+    return solver_keep(keeper, "time", &run->time, sizeof run->time, 1, error) &&
+           solver_keep(keeper, "step", &run->step, sizeof run->step, 1, error) &&
+           solver_keep(keeper, "work of loads", &run->external, sizeof run->external, 1, error) &&
+           solver_keep(keeper, "numerical dissipation", &run->numerical, sizeof run->numerical, 1, error) &&
+           solver_keep(keeper, "seconds", &run->seconds, sizeof run->seconds, 1, error);
 }
 
 /* All fields, also those that follow from others: what a plastic material remembers does not, and which do is for the
@@ -36,7 +38,7 @@ static bool keep_fields(struct solver_keeper *keeper, struct solver_run *run, st
         const struct solver_field *field = &state->field[i];
         char name[sizeof keeper->head->name];
         (void)snprintf(name, sizeof name, "field %s", field->name);
-        if (!solver_keep(keeper, name, *field->value, state->count * field->width * sizeof(double), error)) {
+        if (!solver_keep(keeper, name, *field->value, field->width * sizeof(double), state->count, error)) {
             return false;
         }
     }
@@ -60,13 +62,14 @@ struct text {
     const char **place;
 };
 
-enum { TEXTS = 6 };
+enum { TEXTS = 8 };
 
 static void list_texts(struct solver_checkpoint_about *about, struct text text[TEXTS])
 {
     const struct text all[TEXTS] = {
-        {"version", &about->version},       {"command", &about->command},  {"scene path", &about->scene_path},
-        {"scene file", &about->scene_file}, {"scene", &about->scene_text}, {"overrides", &about->overrides},
+        {"version", &about->version},  {"build", &about->build},           {"loops", &about->loops},
+        {"command", &about->command},  {"scene path", &about->scene_path}, {"scene file", &about->scene_file},
+        {"scene", &about->scene_text}, {"overrides", &about->overrides},
     };
     memcpy(text, all, sizeof all);
 }
@@ -84,12 +87,12 @@ static bool keep_notes(struct solver_keeper *keeper, struct notes *notes, struct
     list_texts(&notes->about, text);
     for (size_t i = 0; i < TEXTS; i++) {
         const char *what = *text[i].place;
-        if (!solver_keep(keeper, text[i].name, (void *)what, strlen(what) + 1, error)) {
+        if (!solver_keep(keeper, text[i].name, (void *)what, 1, strlen(what) + 1, error)) {
             return false;
         }
     }
-    return solver_keep(keeper, "numbers", notes->number, sizeof notes->number, error) &&
-           solver_keep(keeper, "counts", notes->count, sizeof notes->count, error);
+    return solver_keep(keeper, "numbers", notes->number, sizeof *notes->number, 2, error) &&
+           solver_keep(keeper, "counts", notes->count, sizeof *notes->count, 2, error);
 }
 
 bool solver_checkpoint_write(const char *path, const struct solver_run *run,
@@ -97,6 +100,8 @@ bool solver_checkpoint_write(const char *path, const struct solver_run *run,
 {
     struct solver_keeper keeper;
     struct notes notes = {*about, {about->every_seconds, run->time}, {about->every_steps, run->step}};
+    notes.about.build = solver_build();
+    notes.about.loops = solver_build_loops();
     solver_keep_begin(&keeper, path);
     /* the walk goes both ways; this way it changes nothing */
     return keep_notes(&keeper, &notes, error) && keep_state(&keeper, (struct solver_run *)run, error) &&
@@ -121,8 +126,8 @@ static bool read_notes(struct solver_checkpoint *checkpoint, struct solver_error
         }
         *text[i].place = data;
     }
-    if (!solver_keep(keeper, "numbers", notes.number, sizeof notes.number, error) ||
-        !solver_keep(keeper, "counts", notes.count, sizeof notes.count, error)) {
+    if (!solver_keep(keeper, "numbers", notes.number, sizeof *notes.number, 2, error) ||
+        !solver_keep(keeper, "counts", notes.count, sizeof *notes.count, 2, error)) {
         return false;
     }
     about->every_seconds = notes.number[0];
@@ -134,6 +139,26 @@ static bool read_notes(struct solver_checkpoint *checkpoint, struct solver_error
            solver_keep_refuse(keeper, error, "its \"numbers\" are not finite, or below 0");
 }
 
+/* A run that goes on gives the same bytes only by the same arithmetic. */
+static bool check_build(const struct solver_checkpoint *checkpoint, struct solver_error *error)
+{
+    const struct solver_checkpoint_about *about = &checkpoint->about;
+    if (strcmp(about->build, solver_build()) != 0) {
+        return solver_keep_refuse(&checkpoint->keeper, error,
+                                  "a build by %.160s wrote it, and this is one by %.160s, whose results may differ in "
+                                  "their last digits; go on with the one that wrote it",
+                                  about->build, solver_build());
+    }
+    return strcmp(about->loops, solver_build_loops()) == 0 ||
+           solver_keep_refuse(&checkpoint->keeper, error,
+                              "its loops had %.32s multiplications and additions, and those for %s have %s ones, whose "
+                              "results differ in their last digits; go on %s",
+                              about->loops, solver_path_name(solver_path()), solver_build_loops(),
+                              strcmp(about->loops, "separate") == 0
+                                  ? "with ASSAY_ISA=baseline in the environment"
+                                  : "without ASSAY_ISA=baseline, on a processor that has AVX2");
+}
+
 bool solver_checkpoint_read(const char *path, struct solver_checkpoint **out, struct solver_error *error)
 {
     struct solver_checkpoint *checkpoint = NULL;
@@ -143,7 +168,8 @@ bool solver_checkpoint_read(const char *path, struct solver_checkpoint **out, st
     }
     checkpoint->path = strdup(path);
     bool good = checkpoint->path != NULL || solver_fail(error, SOLVER_NO_MEMORY, "checkpoint: no memory for its name");
-    if (!good || !solver_keep_open(&checkpoint->keeper, checkpoint->path, error) || !read_notes(checkpoint, error)) {
+    if (!good || !solver_keep_open(&checkpoint->keeper, checkpoint->path, error) || !read_notes(checkpoint, error) ||
+        !check_build(checkpoint, error)) {
         solver_checkpoint_free(checkpoint);
         return false;
     }

@@ -123,8 +123,8 @@ bool solver_contact_act(struct solver_contact *contact, const double *x, const d
 bool solver_contact_keep(struct solver_contact *contact, struct solver_keeper *keeper, struct solver_error *error)
 {
     return contact->law == SOLVER_CONTACT_NONE ||
-           (solver_keep(keeper, "contact begins", &contact->begin, sizeof contact->begin, error) &&
-            solver_keep(keeper, "contact ends", &contact->end, sizeof contact->end, error));
+           (solver_keep(keeper, "contact begins", &contact->begin, sizeof contact->begin, 1, error) &&
+            solver_keep(keeper, "contact ends", &contact->end, sizeof contact->end, 1, error));
 }
 
 void solver_contact_arrays(const struct solver_contact *contact, struct solver_cost_arrays *arrays)

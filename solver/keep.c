@@ -36,7 +36,7 @@ void solver_keep_begin(struct solver_keeper *keeper, const char *path)
     *keeper = (struct solver_keeper){.path = path};
 }
 
-static bool add(struct solver_keeper *keeper, const char *name, const void *data, size_t size,
+static bool add(struct solver_keeper *keeper, const char *name, const void *data, size_t width, size_t count,
                 struct solver_error *error)
 {
     struct solver_keep_head *head = &keeper->head[keeper->count];
@@ -44,7 +44,8 @@ static bool add(struct solver_keeper *keeper, const char *name, const void *data
         return solver_fail(error, SOLVER_IO, "cannot write %.400s: no place for the block \"%s\" after %zu others",
                            keeper->path, name, keeper->count);
     }
-    head->size = size;
+    head->width = width;
+    head->count = count;
     memcpy(head->name, name, strlen(name));
     keeper->data[keeper->count++] = data;
     return true;
@@ -60,7 +61,7 @@ bool solver_keep_write(const struct solver_keeper *keeper, struct solver_error *
     uint64_t sum = solver_seal_sum(SOLVER_SEAL_SEED, magic, MAGIC);
     size_t parts = 1;
     for (size_t i = 0; i < keeper->count; i++) {
-        size_t size = keeper->head[i].size;
+        size_t size = keeper->head[i].width * keeper->head[i].count;
         sum = solver_seal_sum(sum, &keeper->head[i], sizeof keeper->head[i]);
         sum = solver_seal_sum(sum, keeper->data[i], size);
         part[parts++] = (struct solver_file_part){&keeper->head[i], sizeof keeper->head[i]};
@@ -161,47 +162,79 @@ void solver_keep_close(struct solver_keeper *keeper)
     *keeper = (struct solver_keeper){.path = keeper->path};
 }
 
+/* Where the entries of the next block lie, which must have that name; NULL: it is refused. */
+static const void *next_block(struct solver_keeper *keeper, const char *name, struct solver_keep_head *head,
+                              struct solver_error *error)
+{
+    size_t left = keeper->size - keeper->at;
+    *head = (struct solver_keep_head){.width = 0};
+    if (left < sizeof *head) {
+        (void)solver_keep_refuse(keeper, error, "it has no \"%s\"", name);
+        return NULL;
+    }
+    memcpy(head, keeper->bytes + keeper->at, sizeof *head);
+    if (strncmp(head->name, name, sizeof head->name) != 0) {
+        (void)solver_keep_refuse(keeper, error, "it has \"%.47s\" where \"%s\" was expected", head->name, name);
+        return NULL;
+    }
+    left -= sizeof *head;
+    if (head->width > 0 && (head->count > left / head->width || filled(head->width * head->count) > left)) {
+        (void)solver_keep_refuse(keeper, error, "its \"%s\" claims %llu entries of %llu bytes, and %zu bytes are there",
+                                 name, (unsigned long long)head->count, (unsigned long long)head->width, left);
+        return NULL;
+    }
+    const void *entries = keeper->bytes + keeper->at + sizeof *head;
+    keeper->at += sizeof *head + filled(head->width * head->count);
+    return entries;
+}
+
+/* The same of a block that must have so many entries of that width. */
+static const void *expect(struct solver_keeper *keeper, const char *name, size_t width, size_t count,
+                          struct solver_error *error)
+{
+    struct solver_keep_head head;
+    const void *entries = next_block(keeper, name, &head, error);
+    if (entries != NULL && (head.width != width || head.count != count)) {
+        (void)solver_keep_refuse(keeper, error,
+                                 "its \"%s\" has %llu entries of %llu bytes, and the scene as this program runs it %zu "
+                                 "of %zu",
+                                 name, (unsigned long long)head.count, (unsigned long long)head.width, count, width);
+        return NULL;
+    }
+    return entries;
+}
+
 bool solver_keep_peek(struct solver_keeper *keeper, const char *name, const void **data, size_t *size,
                       struct solver_error *error)
 {
     struct solver_keep_head head;
-    size_t left = keeper->size - keeper->at;
-    if (left < sizeof head) {
-        return solver_keep_refuse(keeper, error, "it has no \"%s\"", name);
-    }
-    memcpy(&head, keeper->bytes + keeper->at, sizeof head);
-    if (strncmp(head.name, name, sizeof head.name) != 0) {
-        return solver_keep_refuse(keeper, error, "it has \"%.55s\" where \"%s\" was expected", head.name, name);
-    }
-    left -= sizeof head;
-    if (head.size > left || filled(head.size) > left) {
-        return solver_keep_refuse(keeper, error, "its \"%s\" claims %llu bytes, and %zu are there", name,
-                                  (unsigned long long)head.size, left);
-    }
-    *data = keeper->bytes + keeper->at + sizeof head;
-    *size = head.size;
-    keeper->at += sizeof head + filled(head.size);
-    return true;
+    *data = next_block(keeper, name, &head, error);
+    *size = head.width * head.count;
+    return *data != NULL;
 }
 
-bool solver_keep(struct solver_keeper *keeper, const char *name, void *data, size_t size, struct solver_error *error)
+bool solver_keep(struct solver_keeper *keeper, const char *name, void *data, size_t width, size_t count,
+                 struct solver_error *error)
 {
-    const void *found = NULL;
-    size_t there = 0;
     if (!keeper->reads) {
-        return add(keeper, name, data, size, error);
+        return add(keeper, name, data, width, count, error);
     }
-    if (!solver_keep_peek(keeper, name, &found, &there, error)) {
-        return false;
+    const void *found = expect(keeper, name, width, count, error);
+    if (found != NULL && width * count > 0) {
+        memcpy(data, found, width * count);
     }
-    if (there != size) {
-        return solver_keep_refuse(keeper, error, "its \"%s\" has %zu bytes, and the scene as this program runs it %zu",
-                                  name, there, size);
+    return found != NULL;
+}
+
+bool solver_keep_same(struct solver_keeper *keeper, const char *name, const void *data, size_t width, size_t count,
+                      struct solver_error *error)
+{
+    if (!keeper->reads) {
+        return add(keeper, name, data, width, count, error);
     }
-    if (size > 0) {
-        memcpy(data, found, size);
-    }
-    return true;
+    const void *found = expect(keeper, name, width, count, error);
+    return found != NULL && (memcmp(data, found, width * count) == 0 ||
+                             solver_keep_refuse(keeper, error, "its \"%s\" are not as this program has them", name));
 }
 
 bool solver_keep_end(const struct solver_keeper *keeper, struct solver_error *error)

@@ -7,7 +7,8 @@
 #include <stddef.h>
 
 struct solver_peak_loops {
-    int lanes; /* doubles in the widest vector */
+    int lanes;  /* doubles in the widest vector */
+    bool fused; /* multiply-adds are one instruction, and round once */
     /* Does `rounds` rounds of multiply-adds that do not wait for each other, and returns the operations done, two for
      * each lane of each. *sum depends on all of them, so that none can be left out. */
     double (*multiply_add)(size_t rounds, double *sum);

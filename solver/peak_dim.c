@@ -10,6 +10,12 @@ enum { WIDEST = 4 };
 enum { WIDEST = 2 };
 #endif
 
+#if defined __FMA__ || defined __aarch64__
+enum { FUSED = 1 };
+#else
+enum { FUSED = 0 };
+#endif
+
 typedef double widest __attribute__((vector_size(WIDEST * sizeof(double))));
 
 /* More of them than the latency of one, times those that start in a cycle; all fit the registers. */
@@ -38,4 +44,4 @@ static double multiply_add(size_t rounds, double *sum)
     return 2.0 * WIDEST * CHAINS * (double)rounds;
 }
 
-const struct solver_peak_loops DIM_NAME(solver_peak) = {.lanes = WIDEST, .multiply_add = multiply_add};
+const struct solver_peak_loops DIM_NAME(solver_peak) = {.lanes = WIDEST, .fused = FUSED, .multiply_add = multiply_add};

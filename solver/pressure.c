@@ -318,8 +318,8 @@ bool solver_pressure_correct(struct solver_pressure *of, const struct solver_sta
 
 bool solver_pressure_keep(struct solver_pressure *of, struct solver_keeper *keeper, struct solver_error *error)
 {
-    size_t size = SOLVER_STAGES * of->body->cloud->count * sizeof *of->increment;
-    return solver_keep(keeper, "increments of the pressure", of->increment, size, error) &&
-           solver_keep(keeper, "iterations of the pressure", &of->iterations, sizeof of->iterations, error) &&
-           solver_keep(keeper, "stages of the pressure", &of->solved, sizeof of->solved, error);
+    size_t entries = SOLVER_STAGES * of->body->cloud->count;
+    return solver_keep(keeper, "increments of the pressure", of->increment, sizeof *of->increment, entries, error) &&
+           solver_keep(keeper, "iterations of the pressure", &of->iterations, sizeof of->iterations, 1, error) &&
+           solver_keep(keeper, "stages of the pressure", &of->solved, sizeof of->solved, 1, error);
 }

@@ -358,7 +358,7 @@ bool solver_projection_keep(struct solver_projection *projection, struct solver_
                             struct solver_error *error)
 {
     return !projection->on ||
-           solver_keep(keeper, "centre of moments", projection->centre, sizeof projection->centre, error);
+           solver_keep(keeper, "centre of moments", projection->centre, sizeof projection->centre, 1, error);
 }
 
 void solver_projection_arrays(const struct solver_projection *projection, struct solver_cost_arrays *arrays)

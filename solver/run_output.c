@@ -271,6 +271,13 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
     return true;
 }
 
+/* Rows of history are kept as they lie in memory, and another build may lay them out otherwise. */
+#define MEMBER(name) SOLVER_KEEP_MEMBER(struct solver_totals, name)
+static const struct solver_keep_member row_members[] = {
+    MEMBER(time),     MEMBER(linear),     MEMBER(angular),       MEMBER(kinetic),   MEMBER(strain), MEMBER(plastic),
+    MEMBER(external), MEMBER(iterations), MEMBER(volume_change), MEMBER(numerical), MEMBER(impact), MEMBER(wall)};
+_Static_assert(sizeof(struct solver_totals) == 18 * sizeof(double), "every member stands in the table");
+
 /* Makes the history what a checkpoint's rows go into. */
 static bool receive_rows(struct solver_run *run, uint64_t rows, struct solver_keeper *keeper,
                          struct solver_error *error)
@@ -289,18 +296,22 @@ static bool receive_rows(struct solver_run *run, uint64_t rows, struct solver_ke
 bool solver_run_keep_history(struct solver_run *run, struct solver_keeper *keeper, struct solver_error *error)
 {
     struct solver_history *history = &run->history;
-    if (!solver_keep(keeper, "rows of history", &history->count, sizeof history->count, error) ||
+    if (!solver_keep(keeper, "rows of history", &history->count, sizeof history->count, 1, error) ||
         (keeper->reads && !receive_rows(run, history->count, keeper, error))) {
         return false;
     }
     size_t rows = history->count;
-    size_t probed = rows * history->probe_count * 3 * sizeof(double);
-    return solver_keep(keeper, "history", history->totals, rows * sizeof *history->totals, error) &&
-           solver_keep(keeper, "displacements of probes", history->probe_u, probed, error) &&
-           solver_keep(keeper, "velocities of probes", history->probe_v, probed, error) &&
-           solver_keep(keeper, "velocities of bodies", history->body_velocity, sizeof history->body_velocity, error) &&
-           solver_keep(keeper, "contact noted from", &history->contact_begin, sizeof history->contact_begin, error) &&
-           solver_keep(keeper, "contact noted until", &history->contact_end, sizeof history->contact_end, error);
+    size_t probed = rows * history->probe_count, vector = 3 * sizeof(double);
+    return solver_keep_same(keeper, "members of a row", row_members, sizeof *row_members,
+                            sizeof row_members / sizeof *row_members, error) &&
+           solver_keep(keeper, "history", history->totals, sizeof *history->totals, rows, error) &&
+           solver_keep(keeper, "displacements of probes", history->probe_u, vector, probed, error) &&
+           solver_keep(keeper, "velocities of probes", history->probe_v, vector, probed, error) &&
+           solver_keep(keeper, "velocities of bodies", history->body_velocity, sizeof history->body_velocity, 1,
+                       error) &&
+           solver_keep(keeper, "contact noted from", &history->contact_begin, sizeof history->contact_begin, 1,
+                       error) &&
+           solver_keep(keeper, "contact noted until", &history->contact_end, sizeof history->contact_end, 1, error);
 }
 
 const struct solver_history *solver_run_history(const struct solver_run *run)

@@ -101,8 +101,8 @@ bool solver_skin_keep(struct solver_skin *skin, const char *name, struct solver_
                       struct solver_error *error)
 {
     size_t dim = (size_t)skin->cloud->dim;
-    return solver_keep(keeper, name, skin->built, skin->cloud->count * dim * sizeof *skin->built, error) &&
-           solver_keep(keeper, "how often listed", &skin->updates, sizeof skin->updates, error) &&
+    return solver_keep(keeper, name, skin->built, dim * sizeof *skin->built, skin->cloud->count, error) &&
+           solver_keep(keeper, "how often listed", &skin->updates, sizeof skin->updates, 1, error) &&
            (!keeper->reads || skin->updates == 0 || list(skin, skin->built, dim, error));
 }
 

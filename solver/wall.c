@@ -309,8 +309,8 @@ void solver_wall_end(struct solver_wall *wall, const struct solver_state *state)
 bool solver_wall_keep(struct solver_wall *wall, struct solver_keeper *keeper, struct solver_error *error)
 {
     return wall->count == 0 ||
-           (solver_keep(keeper, "impulse on the wall", wall->impulse, sizeof wall->impulse, error) &&
-            solver_keep(keeper, "energy taken by the wall", &wall->taken, sizeof wall->taken, error));
+           (solver_keep(keeper, "impulse on the wall", wall->impulse, sizeof wall->impulse, 1, error) &&
+            solver_keep(keeper, "energy taken by the wall", &wall->taken, sizeof wall->taken, 1, error));
 }
 
 void solver_wall_arrays(const struct solver_wall *wall, size_t particles, struct solver_cost_arrays *arrays)

@@ -93,8 +93,12 @@ function(assay_unit_mutant name unit test)
     set(libraries assay_verify)
   endif()
   assay_mutate(${name} ${libraries})
-  # The test's own objects, but for a source that is broken and that all test programs have: verify/trap.c.
-  add_executable(mutant_${name} ${objects} $<FILTER:$<TARGET_OBJECTS:test_${unit}>,EXCLUDE,/${source}[.]>)
+  foreach(library ${libraries}) # run once, and compiled each time
+    target_compile_options(mutated_${name}_${library} PRIVATE -O1)
+  endforeach()
+  # The test's own objects, and of the frame all but a source that is broken: verify/trap.c.
+  add_executable(mutant_${name} ${objects} $<TARGET_OBJECTS:test_${unit}>
+    $<FILTER:${unit_frame},EXCLUDE,/${source}[.]>)
   string(REGEX MATCH "^[a-z]+" room ${unit})
   target_link_libraries(mutant_${name} PRIVATE assay_${room} PkgConfig::CUNIT)
   assay_test(mustfail-${name} LABELS unit mustfail ENVIRONMENT ASSAY_ISA=baseline

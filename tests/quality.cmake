@@ -9,7 +9,8 @@ assay_test(quality-mustfail LABELS mustfail COMMAND ${quality}/mustfail.sh ${CMA
 # Builds of their own, kept between runs. The one with clang serves the analyser, as list of what to look at, and
 # valgrind, which needs a build without AVX-512.
 assay_test(quality-clang LABELS quality TIMEOUT 1800 CORES ${cores}
-  COMMAND ${quality}/build.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/clang debug -DCMAKE_C_COMPILER=clang-14)
+  COMMAND ${quality}/build.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/clang debug -DCMAKE_C_COMPILER=clang-14
+  "-DCMAKE_C_FLAGS_DEBUG=-Og -g1 -gdwarf-4") # lines alone, for memcheck's reports
 assay_test(quality-tidy LABELS quality TIMEOUT 1800 CORES ${cores}
   COMMAND ${quality}/tidy.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/clang)
 assay_test(quality-valgrind LABELS quality TIMEOUT 1800 CORES ${cores}

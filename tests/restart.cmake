@@ -5,3 +5,9 @@ foreach(test killed stopped twice burst unasked full refused study)
     $<TARGET_FILE:assay> test-out/restart-${test})
 endforeach()
 set_tests_properties(restart-full restart-refused PROPERTIES LABELS "unit;mustfail")
+# Measurements keep what they have.
+foreach(test extremes cost trade trade_at_once)
+  string(REPLACE _ - name ${test})
+  assay_test(stopped-${name} LABELS unit COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/stopped.py ${test}
+    $<TARGET_FILE:assay> test-out/stopped-${name})
+endforeach()

@@ -44,7 +44,7 @@ class Place:
         (self.folder / name).mkdir(exist_ok=True)
         return self.folder / name
 
-    def start(self, name, words, limit=None):
+    def start(self, name, words, limit=None, isa=None):
         def prepare():
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
                 signal.signal(number, signal.SIG_DFL)
@@ -52,10 +52,11 @@ class Place:
                 resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
         return subprocess.Popen([self.assay, *words], cwd=self.at(name), stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True, preexec_fn=prepare)
+                                stderr=subprocess.PIPE, text=True, preexec_fn=prepare,
+                                env=os.environ | ({"ASSAY_ISA": isa} if isa else {}))
 
-    def run(self, name, words, code=0, text="", limit=None):
-        return self.end(self.start(name, words, limit), code, text)
+    def run(self, name, words, code=0, text="", limit=None, isa=None):
+        return self.end(self.start(name, words, limit, isa), code, text)
 
     def end(self, process, code, text=""):
         out, err = process.communicate()
@@ -99,7 +100,7 @@ def check_whole(path):
 def step_of(path):
     """The step that a checkpoint stands at."""
     data = path.read_bytes()
-    return struct.unpack_from("<Q", data, data.index(b"step".ljust(56, b"\0")) + 64)[0]
+    return struct.unpack_from("<Q", data, data.index(b"step".ljust(48, b"\0")) + 64)[0]
 
 
 def killed(place):
@@ -242,6 +243,13 @@ def refused(place):
     other = data[:at] + b"0.0.9\0\0\0"[:8] + data[at + 8:-16]
     checkpoint.write_bytes(other + b"assaySUM" + struct.pack("<Q", checksum(other)))
     place.run("again", again, 2, "assay 0.0.9 wrote it, and this is assay")
+    at = data.index(b"build\0") + 64
+    other = data[:at] + b"YYY" + data[at + 3:-16]
+    checkpoint.write_bytes(other + b"assaySUM" + struct.pack("<Q", checksum(other)))
+    place.run("again", again, 2, "a build by YYY")
+    checkpoint.write_bytes(data)
+    if "baseline" not in subprocess.check_output([place.assay, "--version"], text=True): # there are other loops
+        place.run("again", again, 2, "those for baseline have separate ones", isa="baseline")
     checkpoint.write_bytes(data[:-1000])
     place.run("again", again, 2, "cut short, damaged, or changed")
     checkpoint.write_bytes(data[:1000] + b"x" + data[1001:])

@@ -12,7 +12,7 @@ import sys
 import xml.etree.ElementTree
 
 SVG = "{http://www.w3.org/2000/svg}"
-TOP = {"scene", "oracle", "error", "overrides", "budget", "spent", "axes", "levels", "runs", "refused", "broke_down",
+TOP = {"scene", "oracle", "error", "stopped_by", "overrides", "budget", "spent", "axes", "levels", "runs", "refused", "broke_down",
        "left_out", "advice"}
 WHO = {"configuration", "variant", "n"}
 RUN = WHO | {"own", "particles", "pairs", "steps", "evaluations", "cost", "threads", "repeats", "noise", "errors", "fronts"}
@@ -78,7 +78,7 @@ def study(program, folder, words):
 
 
 def check_shape(found, runs):
-    demand(set(found) == TOP, f"keys: {sorted(found)}")
+    demand(set(found) == TOP and found["stopped_by"] is None, f"keys: {sorted(found)}, or it was stopped")
     others = found["refused"] + found["broke_down"] + found["left_out"]
     for run in found["runs"]:
         demand(set(run) == RUN and set(run["cost"]) == set(COSTS), f"keys of a run: {sorted(run)}")
@@ -144,14 +144,14 @@ def check_study(program, folder, runs, *words):
 def forge(folder, name):
     with open(os.path.join(folder, "trade.tsv"), encoding="utf-8") as file:
         lines = file.read().split("\n")[:-2]  # without the sum
-    column = {name: i for i, name in enumerate(lines[5].split("\t"))}
-    rows = [line.split("\t") for line in lines[6:]]
+    column = {name: i for i, name in enumerate(lines[6].split("\t"))}
+    rows = [line.split("\t") for line in lines[7:]]
     for row in rows:
         row[column["seconds"]] = "1"
     cheapest = min((row for row in rows if float(row[column["P_l1"]]) > 0.12), key=lambda row: float(row[column["P_l1"]]))
     cheapest[column["seconds"]] = "1e-6"
     cheapest[column["P_l1"]] = repr(float(cheapest[column["P_l1"]]) / 10)
-    text = "".join(line + "\n" for line in lines[:6] + ["\t".join(row) for row in rows])
+    text = "".join(line + "\n" for line in lines[:7] + ["\t".join(row) for row in rows])
     total = 0xcbf29ce484222325
     for byte in text.encode():
         total = ((total ^ byte) * 0x100000001b3) % 2**64

@@ -28,6 +28,14 @@ cli_refuses(elastic-oracle-of-plastic-body "is of an elastic body, and the scene
             manufactured --set material.model=hencky --set material.yield_stress=1)
 cli_refuses(wrong-oracle-key "oracle.V0" verify swinging-cube --set oracle.V0=1)
 cli_refuses(wrong-oracle-value "material.nu" verify swinging-cube --set oracle.material.nu=0.7)
+cli_refuses(domain-beyond-oracle "corner at (1, 0, 0) m lies 0.1 m outside the body that the oracle" verify
+            manufactured-waves --set oracle.L=0.9)
+cli_refuses(disc-beyond-oracle "m lies 0.1 m outside the body that the oracle" verify breathing-cylinder --levels 4
+            --set oracle.R=0.9)
+cli_refuses(trade-beyond-oracle "m lies 0.1 m outside the body that the oracle" trade breathing-cylinder --levels 4
+            --set oracle.R=0.9 --out test-out/trade-beyond)
+cli_refuses(time-beyond-oracle "reaches to 0.000436" verify plastic-wave
+            --set t_end=1)
 cli_refuses(gate-of-no-figure "the scene's key figures has no such figure" verify bimaterial-wave
             --set figures={})
 cli_refuses(wrong-subject "did you mean keys?" list kyes)

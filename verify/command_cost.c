@@ -2,6 +2,7 @@
 #include "verify/commands.h"
 #include "verify/cost.h"
 #include "verify/report.h"
+#include "verify/signals.h"
 
 int verify_command_cost(const struct verify_options *options)
 {
@@ -11,6 +12,10 @@ int verify_command_cost(const struct verify_options *options)
     if (done) {
         verify_cost_print(&cost);
         done = options->json == NULL || verify_report_write(options->json, verify_cost_json, &cost, &error);
+    }
+    if (done && cost.stopped != 0) {
+        done = solver_fail(&error, SOLVER_STOPPED, "cost: stopped by %s; what is printed%s was measured before",
+                           verify_signals_name(cost.stopped), options->json != NULL ? " and written" : "");
     }
     verify_cost_free(&cost);
     return done ? VERIFY_PASSED : verify_complain(&error);

@@ -3,6 +3,7 @@
 #include "verify/extremes.h"
 #include "verify/files.h"
 #include "verify/json.h"
+#include "verify/signals.h"
 #include "verify/suggest.h"
 
 #include <math.h>
@@ -14,6 +15,7 @@
 struct tally {
     FILE *json; /* in memory; NULL: none is wanted */
     size_t rows, judged, failed;
+    const char *unfinished; /* the extreme during which the program was asked to end; NULL: all was measured */
 };
 
 static void print(const struct verify_extreme_row *row, bool judged, bool holds)
@@ -122,10 +124,31 @@ static bool run_all(const struct verify_options *options, const char *word, stru
         (void)printf("%s%s%s", i == 0 ? "in every run: " : ", ", options->override[i],
                      i + 1 == options->override_count ? "\n" : "");
     }
+    verify_signals_watch();
     for (const struct verify_extreme *extreme = verify_extremes_table(); done && extreme->name != NULL; extreme++) {
         done = !wanted(extreme, word) || run(extreme, &in, error);
+        if (verify_signals_asked() != 0) {
+            tally->unfinished = extreme->name;
+            done = true;
+            break;
+        }
     }
+    verify_signals_leave();
     return done;
+}
+
+/* Whether all rows hold: unknown where some are missing and none of the others fails. */
+static void write_end(FILE *file, const struct tally *tally)
+{
+    (void)fputs("\n], ", file);
+    if (tally->unfinished != NULL) {
+        verify_json_text_member(file, "stopped_by", verify_signals_name(verify_signals_asked()));
+        (void)fputs(", ", file);
+        verify_json_text_member(file, "unfinished", tally->unfinished);
+    } else {
+        (void)fputs("\"stopped_by\": null, \"unfinished\": null", file);
+    }
+    (void)fprintf(file, ", \"pass\": %s}\n", tally->failed > 0 ? "false" : tally->unfinished != NULL ? "null" : "true");
 }
 
 /* The rows, and as JSON at `path` unless that is NULL; whole or not at all. */
@@ -146,7 +169,7 @@ static bool tell(const struct verify_options *options, const char *word, struct 
     }
     write_overrides(tally->json, options);
     bool done = run_all(options, word, tally, error);
-    (void)fprintf(tally->json, "\n], \"pass\": %s}\n", tally->failed == 0 ? "true" : "false");
+    write_end(tally->json, tally);
     bool whole = ferror(tally->json) == 0;
     whole = fclose(tally->json) == 0 && whole;
     if (done && !whole) {
@@ -157,10 +180,22 @@ static bool tell(const struct verify_options *options, const char *word, struct 
     return done;
 }
 
+/* What there is of a map that was not finished. */
+static int say_stopped(const struct tally *tally, const struct verify_options *options)
+{
+    struct solver_error error;
+    (void)solver_fail(&error, SOLVER_STOPPED,
+                      "extremes: stopped by %s during %s; the %zu rows before are whole%s%.400s, and no others were "
+                      "measured",
+                      verify_signals_name(verify_signals_asked()), tally->unfinished, tally->rows,
+                      options->json != NULL ? ", stand in " : "", options->json != NULL ? options->json : "");
+    return verify_complain(&error);
+}
+
 int verify_command_extremes(const struct verify_options *options)
 {
     struct solver_error error = {.code = SOLVER_OK};
-    struct tally tally = {.json = NULL};
+    struct tally tally = {.json = NULL, .unfinished = NULL};
     const char *word = options->operand_count > 0 ? options->operand[0] : NULL;
     if (word != NULL && verify_extreme_find(word) == NULL) {
         return refuse(word);
@@ -168,6 +203,10 @@ int verify_command_extremes(const struct verify_options *options)
     if (!tell(options, word, &tally, &error)) {
         return verify_complain(&error);
     }
-    (void)printf("\n%zu rows, %zu with bounds, %zu of these fail\n", tally.rows, tally.judged, tally.failed);
+    (void)printf("\n%zu rows, %zu with bounds, %zu of these fail%s\n", tally.rows, tally.judged, tally.failed,
+                 tally.unfinished != NULL ? "; not all were measured" : "");
+    if (tally.unfinished != NULL) {
+        return say_stopped(&tally, options);
+    }
     return tally.failed == 0 ? VERIFY_PASSED : VERIFY_FAILED;
 }

@@ -5,6 +5,7 @@
 #include "verify/progress.h"
 #include "verify/report.h"
 #include "verify/report_trade.h"
+#include "verify/signals.h"
 #include "verify/study.h"
 #include "verify/trade_run.h"
 
@@ -117,10 +118,17 @@ static bool run_level(struct work *work, size_t level, size_t from, double deadl
         bool first = i == 0; /* the scene's own, without which there is nothing to compare with */
         work->trader.deadline = first ? INFINITY : deadline;
         show_progress(work, done++, all, begun, run->n);
-        if (!first && verify_now() > deadline) {
-            (void)snprintf(run->why, sizeof run->why, "the budget was spent before its turn");
+        bool stopped = verify_signals_asked() != 0;
+        if (stopped || (!first && verify_now() > deadline)) {
+            (void)snprintf(run->why, sizeof run->why, "the %s before its turn",
+                           stopped ? "study was stopped" : "budget was spent");
         } else if (!verify_trade_measure(&work->trader, run, error)) {
             return false;
+        }
+        if (first && run->end == VERIFY_LEFT_OUT) {
+            return solver_fail(error, SOLVER_STOPPED,
+                               "%s: stopped by %s before the scene's own configuration was measured; nothing is kept",
+                               trade->scene, verify_signals_name(verify_signals_asked()));
         }
         if (first && run->end != VERIFY_MEASURED) {
             return solver_fail(error, run->end == VERIFY_REFUSED ? SOLVER_BAD_INPUT : SOLVER_BROKE_DOWN,
@@ -141,7 +149,7 @@ static bool run_levels(struct work *work, struct solver_error *error)
     struct verify_trade *trade = &work->trade;
     double end = work->begun + (1 - repeat_share) * trade->budget;
     size_t from = 0;
-    for (size_t level = 0; level < trade->level_count; level++) {
+    for (size_t level = 0; level < trade->level_count && verify_signals_asked() == 0; level++) {
         bool last = level + 1 == trade->level_count;
         double now = verify_now();
         if (level > 0 && !verify_trade_promote(trade, level, error)) {
@@ -184,7 +192,7 @@ static bool repeat(struct work *work, struct solver_error *error)
     struct verify_trade *trade = &work->trade;
     work->trader.deadline = work->begun + trade->budget;
     struct verify_trade_run *next = next_to_time(trade);
-    while (next != NULL && verify_now() < work->trader.deadline) {
+    while (next != NULL && verify_now() < work->trader.deadline && verify_signals_asked() == 0) {
         if (work->on) {
             (void)fprintf(stderr, "\r\033[K%s: timing again, %.0f s of at most %.0f s", trade->scene,
                           verify_now() - work->begun, trade->budget);
@@ -227,6 +235,12 @@ static bool write_html(FILE *file, const void *context, struct solver_error *err
     return true;
 }
 
+/* A study that was stopped takes no place of one that was not. */
+static const char *stem_of(const struct work *work)
+{
+    return work->trade.stopped[0] != '\0' ? "trade-stopped" : "trade";
+}
+
 static bool write_files(const struct work *work, struct solver_error *error)
 {
     static const struct {
@@ -236,18 +250,31 @@ static bool write_files(const struct work *work, struct solver_error *error)
     const struct verify_options *options = work->trader.options;
     char folder[VERIFY_PATH], path[VERIFY_PATH];
     if (!verify_out_folder(options, work->scene->name, folder, error) ||
-        !verify_path_join(path, folder, "trade", ".tsv", error) || !verify_trade_write(&work->trade, path, error)) {
+        !verify_path_join(path, folder, stem_of(work), ".tsv", error) ||
+        !verify_trade_write(&work->trade, path, error)) {
         return false;
     }
     (void)printf("\nstudy      %s\n", path);
     for (size_t i = 0; i < sizeof reports / sizeof *reports; i++) {
-        if (!verify_path_join(path, folder, "trade", reports[i].ending, error) ||
+        if (!verify_path_join(path, folder, stem_of(work), reports[i].ending, error) ||
             !verify_report_write(path, reports[i].write, work, error)) {
             return false;
         }
         (void)printf("           %s\n", path);
     }
     return options->json == NULL || verify_report_write(options->json, write_json, work, error);
+}
+
+/* Of a study that was stopped: what there is, and what it is good for. Always false. */
+static bool say_stopped(const struct work *work, struct solver_error *error)
+{
+    const struct verify_options *options = work->trader.options;
+    char folder[VERIFY_PATH], path[VERIFY_PATH], text[512];
+    verify_trade_stopped(&work->trade, text, sizeof text);
+    return verify_out_folder(options, work->scene->name, folder, error) &&
+           verify_path_join(path, folder, stem_of(work), ".tsv", error) &&
+           solver_fail(error, SOLVER_STOPPED, "%s: %s; assay run %.64s --error BOUND --study %.400s chooses among them",
+                       work->trade.scene, text, options->operand[0], path);
 }
 
 /* Before anything is measured that would be lost. */
@@ -284,11 +311,17 @@ static bool study(struct work *work, struct solver_error *error)
     size_t chosen = verify_error_find(trade->error_name[trade->chosen]); /* figures have relative errors */
     trade->relative = chosen == VERIFY_ERRORS || strcmp(verify_error_unit(chosen), "-") == 0;
     verify_trade_print_begin(stdout, trade, work->scene, truth);
-    if (!run_levels(work, error) || !repeat(work, error)) {
+    verify_signals_watch();
+    bool done = run_levels(work, error) && repeat(work, error);
+    verify_signals_leave();
+    if (!done) {
         return false;
     }
+    if (verify_signals_asked() != 0) {
+        (void)snprintf(trade->stopped, sizeof trade->stopped, "%s", verify_signals_name(verify_signals_asked()));
+    }
     verify_trade_print_end(stdout, trade);
-    return write_files(work, error);
+    return write_files(work, error) && (trade->stopped[0] == '\0' || say_stopped(work, error));
 }
 
 int verify_command_trade(const struct verify_options *options)

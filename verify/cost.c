@@ -3,6 +3,7 @@
 #include "solver/integrator.h"
 #include "verify/find.h"
 #include "verify/overrides.h"
+#include "verify/signals.h"
 #include "verify/simulate.h"
 #include "verify/study.h"
 #include "verify/timing.h"
@@ -241,6 +242,9 @@ static void measure_history(const struct verify_options *options, struct verify_
     cost->row_bytes = (double)(sizeof(struct solver_totals) + 6 * probes * sizeof(double));
     cost->row_seconds = NAN;
     for (int sample = 0; sample < 3; sample++) {
+        if (verify_signals_asked() != 0) {
+            return;
+        }
         double with = NAN;
         double without = NAN;
         if (!time_history(options, "history=100000", &every, &with) ||
@@ -253,13 +257,9 @@ static void measure_history(const struct verify_options *options, struct verify_
     cost->row_seconds = fmax(0.0, most - least) / (double)(every.rows - first.rows);
 }
 
-bool verify_cost_measure(const struct verify_options *options, struct verify_cost *cost, struct solver_error *error)
+/* The whole, then it without each of its parts, then its history. A signal lets the item at hand be the last. */
+static bool measure_all(const struct verify_options *options, struct verify_cost *cost, struct solver_error *error)
 {
-    char room[2 * SOLVER_TEXT];
-    *cost = (struct verify_cost){.scene = NULL};
-    if (!open_with(options, "", room, &cost->scene, error)) {
-        return false;
-    }
     struct solver_run *whole = NULL;
     measure(cost->scene, &cost->whole, &whole);
     if (!cost->whole.runs) {
@@ -267,7 +267,7 @@ bool verify_cost_measure(const struct verify_options *options, struct verify_cos
         solver_run_free(whole);
         return false;
     }
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+    for (size_t i = 0; i < sizeof parts / sizeof *parts && verify_signals_asked() == 0; i++) {
         if (parts[i].there(cost->scene)) {
             struct verify_cost_item *item = &cost->item[cost->item_count++];
             item->name = parts[i].name;
@@ -278,6 +278,20 @@ bool verify_cost_measure(const struct verify_options *options, struct verify_cos
     solver_run_free(whole);
     measure_history(options, cost);
     return true;
+}
+
+bool verify_cost_measure(const struct verify_options *options, struct verify_cost *cost, struct solver_error *error)
+{
+    char room[2 * SOLVER_TEXT];
+    *cost = (struct verify_cost){.scene = NULL};
+    if (!open_with(options, "", room, &cost->scene, error)) {
+        return false;
+    }
+    verify_signals_watch();
+    bool done = measure_all(options, cost, error);
+    verify_signals_leave();
+    cost->stopped = verify_signals_asked();
+    return done;
 }
 
 void verify_cost_free(struct verify_cost *cost)

@@ -34,9 +34,11 @@ struct verify_cost {
     struct verify_cost_item item[VERIFY_COST_ITEMS];
     /* The recorded history: rows over t_end or as many as there are steps, bytes of each, seconds that one takes. */
     double rows, row_bytes, row_seconds, steps;
+    int stopped; /* by this signal (signals.h), after the items that there are; 0: all there is was measured */
 };
 
-/* Builds and times the scene and each of its variants. False if the scene itself does not run. *cost is the caller's to
+/* Builds and times the scene and each of its variants; what is measured when the program is asked to end is the last.
+ * False if the scene itself does not run. *cost is the caller's to
  * free. */
 bool verify_cost_measure(const struct verify_options *options, struct verify_cost *cost, struct solver_error *error);
 void verify_cost_free(struct verify_cost *cost);

@@ -1,6 +1,7 @@
 /* The cost of a scene, as people and programs read it. */
 #include "verify/cost.h"
 #include "verify/json.h"
+#include "verify/signals.h"
 #include "verify/study.h"
 
 #include <math.h>
@@ -111,6 +112,10 @@ void verify_cost_print(const struct verify_cost *cost)
     print_arrays(&cost->whole);
     print_terms(&cost->whole);
     print_items(cost);
+    if (cost->stopped != 0) {
+        (void)printf("\nStopped by %s: other items and the time of a row were not measured.\n",
+                     verify_signals_name(cost->stopped));
+    }
     (void)printf(
         "\nOperations and bytes are declared, times measured: the best of a few samples. An operation on a padded "
         "vector\ncounts its lanes, a function such as log 20.\n");
@@ -157,6 +162,12 @@ bool verify_cost_json(FILE *file, const void *context, struct solver_error *erro
     verify_json_text_member(file, "scene", cost->scene->name);
     (void)fputs(",\n  ", file);
     verify_json_text_member(file, "scheme", cost->scene->scheme);
+    if (cost->stopped != 0) {
+        (void)fputs(", ", file);
+        verify_json_text_member(file, "stopped_by", verify_signals_name(cost->stopped));
+    } else {
+        (void)fputs(", \"stopped_by\": null", file);
+    }
     (void)fprintf(file,
                   ",\n  \"particles\": %zu, \"pairs\": %zu, \"threads\": %d, \"right_hand_sides_per_step\": %d, "
                   "\"pair_loops\": %d,\n  ",

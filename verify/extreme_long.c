@@ -120,7 +120,7 @@ static bool vibrate(const struct verify_extremes *in, const char *what, const ch
         ok = mode(&trial, c, &v, &s, &t, error);
         early = hypot(v, s) / first;
         since = t * c / 2.0; /* periods */
-        ok = ok && solver_run_steps(trial.run, STEPS - FIRST, error) && mode(&trial, c, &v, &s, &t, error);
+        ok = ok && verify_trial_steps(&trial, STEPS - FIRST, error) && mode(&trial, c, &v, &s, &t, error);
     }
     if (ok) {
         char note[120];

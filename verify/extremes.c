@@ -1,6 +1,7 @@
 #include "verify/extremes.h"
 
 #include "verify/find.h"
+#include "verify/signals.h"
 #include "verify/simulate.h"
 
 #include <math.h>
@@ -87,9 +88,19 @@ bool verify_extreme_holds(const struct verify_extreme_row *row)
     return isgreaterequal(row->value, row->least) && islessequal(row->value, row->most); /* no number is neither */
 }
 
+/* A row that is told after the program was asked to end was cut short somewhere, and is none. */
 void verify_extreme_told(const struct verify_extremes *in, const struct verify_extreme_row *row)
 {
-    in->take(in->context, in->extreme, row);
+    if (verify_signals_asked() == 0) {
+        in->take(in->context, in->extreme, row);
+    }
+}
+
+/* False once the program was asked to end. */
+static bool goes_on(struct solver_error *error)
+{
+    int number = verify_signals_asked();
+    return number == 0 || solver_fail(error, SOLVER_STOPPED, "stopped by %s", verify_signals_name(number));
 }
 
 bool verify_trial_open(const struct verify_extremes *in, const char *scene, struct verify_trial *trial,
@@ -100,6 +111,9 @@ bool verify_trial_open(const struct verify_extremes *in, const char *scene, stru
     size_t count = 0;
     va_list arguments;
     *trial = (struct verify_trial){NULL, NULL};
+    if (!goes_on(error)) {
+        return false;
+    }
     va_start(arguments, format);
     int length = vsnprintf(settings, sizeof settings, format, arguments);
     va_end(arguments);
@@ -130,9 +144,29 @@ void verify_trial_close(struct verify_trial *trial)
     *trial = (struct verify_trial){NULL, NULL};
 }
 
+/* A solver_progress. */
+static bool watch(void *context, double time, double t_end, size_t step)
+{
+    (void)context;
+    (void)time;
+    (void)t_end;
+    (void)step;
+    return verify_signals_asked() == 0;
+}
+
 bool verify_trial_finish(struct verify_trial *trial, struct solver_error *error)
 {
-    return solver_run_to(trial->run, trial->scene->t_end, NULL, NULL, error);
+    return solver_run_to(trial->run, trial->scene->t_end, watch, NULL, error) && goes_on(error);
+}
+
+bool verify_trial_steps(struct verify_trial *trial, size_t steps, struct solver_error *error)
+{
+    enum { PIECE = 1000 }; /* milliseconds */
+    bool done = true;
+    for (size_t made = 0; done && made < steps; made += PIECE) {
+        done = goes_on(error) && solver_run_steps(trial->run, made + PIECE < steps ? PIECE : steps - made, error);
+    }
+    return done && goes_on(error);
 }
 
 double verify_trial_speed(struct verify_trial *trial, double *largest)

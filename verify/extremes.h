@@ -44,7 +44,7 @@ bool verify_extreme_check(const struct verify_extreme *extreme, const struct ver
 
 /* Whether the value lies within its bounds; what is only told passes unless it is NaN. */
 bool verify_extreme_holds(const struct verify_extreme_row *row);
-/* Hands a row to whoever takes it. */
+/* Hands a row to whoever takes it, unless the program was asked to end (signals.h) while it was measured. */
 void verify_extreme_told(const struct verify_extremes *in, const struct verify_extreme_row *row);
 
 /* A run of a scene of the program with overrides, "key=value" separated by blanks, then those of the command line. */
@@ -55,8 +55,10 @@ struct verify_trial {
 bool verify_trial_open(const struct verify_extremes *in, const char *scene, struct verify_trial *trial,
                        struct solver_error *error, const char *format, ...) __attribute__((format(printf, 5, 6)));
 void verify_trial_close(struct verify_trial *trial);
-/* To the scene's end time. */
+/* To the scene's end time, or many steps. Both, and opening, fail (SOLVER_STOPPED) once the program was asked to end.
+ */
 bool verify_trial_finish(struct verify_trial *trial, struct solver_error *error);
+bool verify_trial_steps(struct verify_trial *trial, size_t steps, struct solver_error *error);
 /* Root mean square of the velocities [m/s] and largest of them; NaN if there is no output. */
 double verify_trial_speed(struct verify_trial *trial, double *largest);
 

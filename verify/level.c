@@ -1,6 +1,7 @@
 #include "verify/level.h"
 
 #include "verify/figures.h"
+#include "verify/inside.h"
 
 #include <math.h>
 #include <string.h>
@@ -110,7 +111,8 @@ bool verify_level_measure(struct verify_level *level, const struct solver_scene 
 {
     const struct solver_history *history = solver_run_history(run);
     level->facts = solver_run_facts(run);
-    return verify_norms_state(output, truth->kind, truth->oracle, level->error, error) &&
+    return verify_inside_cloud(scene, truth, output->cloud, error) &&
+           verify_norms_state(output, truth->kind, truth->oracle, level->error, error) &&
            verify_norms_probes(history, truth->kind, truth->oracle, scene->probe_scale, level->error, error) &&
            verify_figures_measure(scene, truth, history, output, level, error);
 }

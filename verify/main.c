@@ -40,7 +40,8 @@ static const struct verify_command commands[] = {
          "A checkpoint holds the scene and its overrides; nothing else is needed. The run that goes on gives the\n"
          "same bytes as one that was never stopped, for any number of threads (--set threads=N, and no other key).\n"
          "Results go to the checkpoint's folder unless --out says otherwise. One of another version of the program\n"
-         "is refused, and one whose scene's file has changed since, unless --as-stored is given.",
+         "is refused, one of another compiler or of loops that round otherwise (ASSAY_ISA), and one whose scene's\n"
+         "file has changed since, unless --as-stored is given.",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_OUT | VERIFY_TAKES_ERROR | VERIFY_TAKES_STUDY | VERIFY_TAKES_CHECKPOINT,
      .least = 1,
      .most = 1,
@@ -138,6 +139,8 @@ static const struct verify_command commands[] = {
          "without it all are measured. --set goes to every run; keys that the rows set themselves are refused.\n\n"
          "  assay extremes scale\n"
          "  assay extremes cfl --json cfl.json\n\n"
+         "SIGINT (Ctrl-C), SIGTERM and SIGHUP end it by the signal; the rows before stand, in the JSON file too,\n"
+         "which then says by what it was stopped, and during which extreme.\n\n"
          "Exit code: 0 all bounds hold; 1 one does not; 2 a word or a file is wrong; 3 a run that had to end broke\n"
          "down.",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_JSON,
@@ -150,7 +153,8 @@ static const struct verify_command commands[] = {
          "Prints the memory of every array [B/particle] and the operations of every term [flop/particle-step], as\n"
          "declared beside the code and held to the allocator and to counted operations by tests; the time of a\n"
          "particle's step as measured [ns], on one thread unless --set threads says otherwise; and all three for the\n"
-         "scene without each item that a key can leave out. A measurement, not a test.\n\n"
+         "scene without each item that a key can leave out. A measurement, not a test. SIGINT (Ctrl-C), SIGTERM\n"
+         "and SIGHUP end it by the signal after the item at hand; what was measured is printed and written.\n\n"
          "  assay cost swinging-cube\n"
          "  assay cost taylor-bar --set n=2 --json cost.json",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_JSON,

@@ -183,6 +183,11 @@ void verify_trade_print_end(FILE *file, const struct verify_trade *trade)
 {
     double decade[16];
     size_t count = verify_trade_decades(trade, trade->chosen, decade, 16);
+    if (trade->stopped[0] != '\0') {
+        char text[512];
+        verify_trade_stopped(trade, text, sizeof text);
+        (void)fprintf(file, "\n%s\n", text);
+    }
     print_fronts(file, trade);
     (void)fputc('\n', file);
     print_reasons(file, trade, VERIFY_REFUSED, "refused    ", SHOWN_REASONS);

@@ -25,12 +25,12 @@ void verify_trade_advise(const struct verify_trade *trade, size_t error, double 
 /* Powers of ten within the errors measured, from the largest to the first that nothing reaches; returns how many. */
 size_t verify_trade_decades(const struct verify_trade *trade, size_t error, double decade[], size_t room);
 
-/* {"scene", "oracle", "error", "overrides": [...], "budget", "spent", "axes": {KEY: [value, ...]}, "levels": [n, ...],
- *  "runs": [{"configuration": {KEY: value}, "variant", "n", "own", "particles", "pairs", "steps", "evaluations",
- *            "cost": {"pair_evaluations", "bytes", "seconds"}, "threads", "repeats", "noise", "errors": {NAME: value},
- *            "fronts": [name of cost, ...]}, ...],
- *  "refused", "broke_down", "left_out": [{"configuration", "variant", "n", "why", "by"}, ...],
- *  "advice": [{"error", "run", "own"}, ...]}; a run is its place in "runs", null where there is none. */
+/* {"scene", "oracle", "error", "stopped_by", "overrides": [...], "budget", "spent", "axes": {KEY: [value, ...]},
+ * "levels": [n, ...], "runs": [{"configuration": {KEY: value}, "variant", "n", "own", "particles", "pairs", "steps",
+ * "evaluations", "cost": {"pair_evaluations", "bytes", "seconds"}, "threads", "repeats", "noise", "errors": {NAME:
+ * value}, "fronts": [name of cost, ...]}, ...], "refused", "broke_down", "left_out": [{"configuration", "variant", "n",
+ * "why", "by"}, ...], "advice": [{"error", "run", "own"}, ...]}; a run is its place in "runs", null where there is
+ * none. */
 void verify_trade_json(FILE *file, const struct verify_trade *trade);
 
 /* Error over cost, both axes logarithmic, as a group of a width and height that the caller has room for. */

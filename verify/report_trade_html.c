@@ -101,6 +101,13 @@ void verify_trade_html(FILE *file, const struct verify_trade *trade, const struc
                        const struct verify_truth *truth)
 {
     verify_html_begin(file, scene->title, scene->source, truth, "", "What accuracy costs");
+    if (trade->stopped[0] != '\0') {
+        char text[512];
+        verify_trade_stopped(trade, text, sizeof text);
+        (void)fprintf(file, "<p><strong>The study was ");
+        verify_html_text(file, text);
+        (void)fprintf(file, ".</strong></p>\n");
+    }
     charts(file, trade);
     advice(file, trade);
     fronts(file, trade);

@@ -153,6 +153,12 @@ void verify_trade_json(FILE *file, const struct verify_trade *trade)
     verify_json_text_member(file, "oracle", trade->oracle);
     (void)fputs(",\n  ", file);
     verify_json_text_member(file, "error", trade->error_name[trade->chosen]);
+    if (trade->stopped[0] != '\0') {
+        (void)fputs(",\n  ", file);
+        verify_json_text_member(file, "stopped_by", trade->stopped);
+    } else {
+        (void)fputs(",\n  \"stopped_by\": null", file);
+    }
     overrides(file, trade->overrides);
     (void)fputs(",\n  ", file);
     verify_json_number_member(file, "budget", trade->budget);

@@ -221,6 +221,23 @@ size_t verify_trade_best(const struct verify_trade *trade, size_t error)
     return found;
 }
 
+void verify_trade_stopped(const struct verify_trade *trade, char *text, size_t size)
+{
+    size_t measured = 0, begun = 0;
+    for (size_t i = 0; i < trade->run_count; i++) {
+        measured += trade->run[i].end == VERIFY_MEASURED;
+        while (begun < trade->level_count && trade->level[begun] != trade->run[i].n) {
+            begun++;
+        }
+    }
+    size_t used = (size_t)snprintf(text, size, "stopped by %s: %zu of %zu runs were measured", trade->stopped, measured,
+                                   trade->run_count);
+    for (size_t i = begun + 1; i < trade->level_count && used < size; i++) {
+        used += (size_t)snprintf(text + used, size - used, "%s%d", i == begun + 1 ? "; not begun: n = " : ", ",
+                                 trade->level[i]);
+    }
+}
+
 size_t verify_trade_error(const struct verify_trade *trade, const char *name)
 {
     size_t i = 0;

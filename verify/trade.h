@@ -73,6 +73,7 @@ struct verify_trade {
     bool relative;              /* it is: where it is 1 or more, nothing at all would be as good */
     char error_name[VERIFY_TRADE_ERRORS][VERIFY_TRADE_NAME];
     double budget, spent; /* [s] */
+    char stopped[16];     /* the signal that ended the study before its end: "SIGINT"; "": none did */
     size_t run_count, run_room;
     struct verify_trade_run *run; /* [run_room] */
 };
@@ -122,6 +123,9 @@ bool verify_trade_promote(struct verify_trade *trade, size_t level, struct solve
 /* Adds what a run overrides to the options, whose text goes to `store`. */
 bool verify_trade_configure(const struct solver_scene *scene, const struct verify_trade_run *run,
                             char store[VERIFY_TRADE_STORE], struct verify_options *options, struct solver_error *error);
+
+/* "stopped by SIGINT: 12 of 40 runs were measured; not begun: n = 32", of a study that was stopped. */
+void verify_trade_stopped(const struct verify_trade *trade, char *text, size_t size);
 
 /* The study as a table that assay run reads again. */
 bool verify_trade_write(const struct verify_trade *trade, const char *path, struct solver_error *error);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char magic[] = "assay trade 1";
+static const char magic[] = "assay trade 2";
 enum { FIXED = 11 }; /* columns before those of errors */
 static const char fixed_columns[] =
     "configuration\tvariant\tn\town\tevaluations\tpair_evaluations\tbytes\tseconds\tthreads\trepeats\tnoise";
@@ -26,7 +26,8 @@ static void write_head(FILE *file, const struct verify_trade *trade)
             (void)fputc(*c == '\n' ? ' ' : *c, file);
         }
     }
-    (void)fprintf(file, "\nerror\t%s\n%s", trade->error_name[trade->chosen], fixed_columns);
+    (void)fprintf(file, "\nstopped\t%s\nerror\t%s\n%s", trade->stopped, trade->error_name[trade->chosen],
+                  fixed_columns);
     for (size_t i = 0; i < trade->error_count; i++) {
         (void)fprintf(file, "\t%s", trade->error_name[i]);
     }
@@ -247,6 +248,7 @@ static bool read_all(struct reader *reader, size_t size, struct verify_trade *tr
     (void)next_line(reader);
     if (!read_member(reader, "scene", trade->scene, sizeof trade->scene) ||
         !read_member(reader, "hash", hash, sizeof hash) || !read_member(reader, "overrides", trade->overrides, size) ||
+        !read_member(reader, "stopped", trade->stopped, sizeof trade->stopped) ||
         !read_member(reader, "error", chosen, sizeof chosen) || !read_columns(reader, trade)) {
         return false;
     }

@@ -88,8 +88,8 @@ static bool pick_run(struct verify_pick *pick, const char *path, struct solver_e
     if (picked == trade->run_count) {
         char text[VERIFY_ADVICE];
         verify_trade_advise(trade, pick->error, pick->bound, text);
-        return solver_fail(error, SOLVER_BAD_INPUT, "%s: %.800s; a study with larger --levels may reach it", path,
-                           text);
+        return solver_fail(error, SOLVER_BAD_INPUT, "%s: %.800s; a study with larger --levels%s may reach it", path,
+                           text, trade->stopped[0] != '\0' ? ", or one that is not stopped," : "");
     }
     pick->run = trade->run[picked];
     return true;
@@ -102,6 +102,10 @@ static void say(const struct verify_pick *pick, const char *path)
     (void)printf("%s\n           (%s)\npicked     n=%d %s%s%s %s\n           where the study measured %s = %.3e\n\n",
                  text, path, pick->run.n, pick->run.words, pick->run.variant[0] != '\0' ? " way: " : "",
                  pick->run.variant, pick->threads, pick->trade.error_name[pick->error], pick->run.error[pick->error]);
+    if (pick->trade.stopped[0] != '\0') {
+        (void)printf("The study was stopped by %s: of what it did not measure something may cost less.\n\n",
+                     pick->trade.stopped);
+    }
 }
 
 /* The words of the study are foreign text: each is a key that a study varies, and the scene checks their values. */

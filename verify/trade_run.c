@@ -3,6 +3,7 @@
 #include "verify/find.h"
 #include "verify/level.h"
 #include "verify/progress.h"
+#include "verify/signals.h"
 #include "verify/simulate.h"
 
 #include "solver/integrator.h"
@@ -17,17 +18,17 @@ struct attempt {
     const struct verify_truth *truth; /* NULL: it is only timed */
     struct solver_scene *scene;
     struct solver_run *run;
-    bool late;
+    bool late; /* given up */
 };
 
-/* A solver_progress that stops at the deadline. */
+/* A solver_progress that stops at the deadline, or when the program is asked to end. */
 static bool watch(void *context, double time, double t_end, size_t step)
 {
     struct attempt *attempt = context;
     (void)time;
     (void)t_end;
     (void)step;
-    attempt->late = verify_now() > attempt->trader->deadline;
+    attempt->late = verify_now() > attempt->trader->deadline || verify_signals_asked() != 0;
     return !attempt->late;
 }
 
@@ -145,9 +146,10 @@ bool verify_trade_measure(struct verify_trader *trader, struct verify_trade_run 
                : attempt.late                        ? VERIFY_LEFT_OUT
                                                      : VERIFY_MEASURED;
     (void)snprintf(run->why, sizeof run->why, "%.511s",
-                   !done          ? why.text
-                   : attempt.late ? "the budget was spent before it was done"
-                                  : "");
+                   !done                         ? why.text
+                   : !attempt.late               ? ""
+                   : verify_signals_asked() != 0 ? "the study was stopped before it was done"
+                                                 : "the budget was spent before it was done");
     if (!done && why.code == SOLVER_IO) {
         *error = why;
         return false;

@@ -12,7 +12,7 @@ struct verify_trader {
     struct verify_trade *trade;
     struct verify_truth truth[SOLVER_VARIANTS + 1]; /* of the scene and of its variants, as they are needed */
     bool opened[SOLVER_VARIANTS + 1];
-    double deadline; /* [s] on verify_now(): a run is given up then */
+    double deadline; /* [s] on verify_now(): a run is given up then, or when the program is asked to end (signals.h) */
 };
 
 /* Runs it and fills in its end, and what was measured; all that goes wrong with the configuration itself is no error of

@@ -1,5 +1,6 @@
 #include "verify/truth.h"
 
+#include "verify/inside.h"
 #include "verify/manufactured.h"
 #include "verify/suggest.h"
 
@@ -178,7 +179,14 @@ bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *
         !refuse_unknown(&teller, truth->kind, error) || !parameters(scene, &teller, truth, error)) {
         return false;
     }
-    return create(scene->path, truth, error);
+    if (!create(scene->path, truth, error)) {
+        return false;
+    }
+    bool inside = verify_inside_domain(scene, truth, error);
+    if (!inside) {
+        verify_truth_free(truth);
+    }
+    return inside;
 }
 
 /* All that is missing, at once. */

@@ -21,7 +21,8 @@ struct verify_truth {
 };
 
 /* Finds the scene's oracle, gives it its parameters (oracle.KEY before the scene's own value of that name) and runs its
- * self-check. A failing self-check is no error: see `proven`. Errors name the key that is missing or unknown. */
+ * self-check. A failing self-check is no error: see `proven`. Errors name the key that is missing or unknown, or say
+ * that the scene's domain or end time is beyond what the oracle speaks of (inside.h). */
 bool verify_truth_create(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error);
 /* The same for a study, which a scene without an oracle may have too: that of a run whose gates are on indicators. */
 bool verify_truth_open(const struct solver_scene *scene, struct verify_truth *truth, struct solver_error *error);

@@ -13,7 +13,7 @@ static char folder[] = "/tmp/assay-checkpoint-XXXXXX";
 static char path[64];
 
 static const struct solver_checkpoint_about about = {
-    "scene.lua", "/there/scene.lua", "title = 'x'", "n=4\n", "assay run scene", "1.0", 30.0, 0.0, 7, 0};
+    "scene.lua", "/there/scene.lua", "title = 'x'", "n=4\n", "assay run scene", "1.0", NULL, NULL, 30.0, 0.0, 7, 0};
 
 /* A run of a case after so many steps, by way of a checkpoint after `before` of them if there is one. */
 struct plan {

@@ -1,6 +1,8 @@
 /* Checkpoints that are cut short, damaged, foreign, of another kind, or made up, with a valid seal: all are refused,
  * and say why; nothing in them is believed before the seal holds, and nothing out of bounds after. */
+#include "solver/build.h"
 #include "solver/checkpoint.h"
+#include "solver/path.h"
 #include "solver/seal.h"
 #include "tests/unit/runs.h"
 
@@ -14,7 +16,7 @@ static const char moving[] = "probes = { { name = 'middle', X = each(0.5) } }\n"
                              "initial = { velocity = function(X, Y) return first(0.1 * X, 0.1 * Y, 0) end }\n";
 
 static const struct solver_checkpoint_about about = {
-    "scene.lua", "/there/scene.lua", "title = 'x'", "n=4\n", "assay run scene", "1.0", 30.0, 0.0, 7, 0};
+    "scene.lua", "/there/scene.lua", "title = 'x'", "n=4\n", "assay run scene", "1.0", NULL, NULL, 30.0, 0.0, 7, 0};
 
 /* A good one, whose bytes tests spoil. */
 static unsigned char *good;
@@ -130,6 +132,9 @@ static void foreign(void)
     CU_ASSERT_EQUAL(rmdir(path), 0);
 }
 
+/* Within a block: its name is at 0. */
+enum { WIDTH = 48, COUNT = 56, DATA = 64 };
+
 /* Where a block begins: its head. */
 static size_t find_block(const char *name)
 {
@@ -161,18 +166,18 @@ static void another_kind(void)
     memcpy(copy, good, good_size);
     copy[sizeof "assay checkpoint " - 1] = '0';
     seal(copy, good_size);
-    refused_as(copy, good_size, "another kind; this program reads \"assay checkpoint 1\"");
+    refused_as(copy, good_size, "another kind; this program reads \"assay checkpoint 2\"");
     free(copy);
 }
 
 static void made_up(void)
 {
     unit_untrapped();
-    enum { SIZE = 56, DATA = 64 }; /* within a block */
     const uint64_t huge = UINT64_MAX - 3, many = 1u << 30, few = 8;
     const double nan = NAN, infinite = INFINITY, late = 7.0, negative = -1.0;
     forged("version", 0, "vision", 6, "\"vision");
-    forged("version", SIZE, &huge, 8, "claims 18446744073709551612 bytes");
+    forged("version", COUNT, &huge, 8, "claims 18446744073709551612 entries of 1 bytes");
+    forged("version", WIDTH, &huge, 8, "entries of 18446744073709551612 bytes");
     forged("version", DATA, "no end here", 4, "is no text");
     forged("scene", DATA, "a\0b", 3, "is no text");
     forged("numbers", DATA, &infinite, 8, "not finite");
@@ -181,13 +186,64 @@ static void made_up(void)
     forged("time", DATA, &negative, 8, "not on the way");
     forged("step", DATA, &many, 8, "not on the way");
     forged("field v", 0, "field w", 7, "\"field w\" where \"field v\"");
-    forged("field v", SIZE, &few, 8, "has 8 bytes");
+    forged("field v", COUNT, &few, 8, "has 8 entries of 16 bytes");
     forged("field rho", DATA, &negative, 8, "its state is broken");
     forged("field v", DATA, &nan, 8, "its state is broken");
     forged("neighbours", DATA, &nan, 8, "not finite");
     forged("rows of history", DATA, &many, 8, "more than it can hold");
     forged("rows of history", DATA, &huge, 8, "more than it can hold");
     forged("rows of history", DATA, &few, 8, "\"history\" has");
+}
+
+/* As many bytes as there should be, of another kind. */
+static void other_layout(void)
+{
+    const struct {
+        uint64_t width, count;
+    } halves = {8, 18};
+    CU_ASSERT_EQUAL_FATAL(good[find_block("field v") + WIDTH], 16);
+    CU_ASSERT_EQUAL_FATAL(good[find_block("field v") + COUNT], 9);
+    forged("field v", WIDTH, &halves, sizeof halves,
+           "has 18 entries of 8 bytes, and the scene as this program runs it 9 of 16");
+    forged("members of a row", DATA + 16, "\x40", 1, "not as this program has them"); /* "time" lies elsewhere */
+    forged("members of a row", DATA, "tide", 4, "not as this program has them");
+}
+
+/* By another compiler, or by loops that round otherwise. */
+static void other_arithmetic(void)
+{
+    CU_ASSERT(strlen(solver_build()) > 8);
+    forged("build", DATA, "cc", 2, "whose results may differ in their last digits");
+    forged("loops", DATA, "bused", 5, "go on without ASSAY_ISA=baseline");
+}
+
+/* Written by the loops for one instruction set and read by those for another: refused only where these give other bits,
+ * with what to do. */
+static void by_another_path(void)
+{
+    int widest = solver_path();
+    for (int other = 0; other < widest; other++) {
+        char loops[16];
+        struct solver_error error = {.text = ""};
+        solver_path_use(widest);
+        write_bytes(good, good_size);
+        (void)snprintf(loops, sizeof loops, "%s", solver_build_loops());
+        solver_path_use(other);
+        bool same = strcmp(loops, solver_build_loops()) == 0;
+        struct sample sample = start(moving, SETTINGS);
+        CU_ASSERT_EQUAL(same, strcmp(solver_path_name(other), "avx2") == 0);
+        CU_ASSERT_EQUAL(take_up(sample.run, &error), same);
+        if (!same) {
+            expect("its loops had fused multiplications and additions, and those for baseline have separate ones",
+                   &error);
+            CU_ASSERT(solver_checkpoint_write(path, sample.run, &about, &error));
+            solver_path_use(widest);
+            CU_ASSERT_FALSE(take_up(sample.run, &error));
+            expect("go on with ASSAY_ISA=baseline in the environment", &error);
+        }
+        finish(&sample);
+    }
+    solver_path_use(widest);
 }
 
 static void too_much(void)
@@ -247,6 +303,9 @@ int main(void)
         {"foreign files", foreign},
         {"another kind of checkpoint", another_kind},
         {"sealed and made up", made_up},
+        {"laid out otherwise", other_layout},
+        {"by other arithmetic", other_arithmetic},
+        {"by the loops for another instruction set", by_another_path},
         {"more than the run has", too_much},
         {"of another run", of_another_run},
         {"any bytes, sealed", any_bytes},

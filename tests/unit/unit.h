@@ -1,5 +1,6 @@
-/* Runs one CUnit suite and turns the result into an exit code. A suite without assertions fails. The environment's
- * UNIT_ONLY names the one test to run, where a checker is too slow for all; a name that no test has fails. */
+/* Runs one CUnit suite and turns the result into an exit code. A suite without assertions fails. Where a checker
+ * is too slow for all tests, the environment's UNIT_ONLY names those to run, and UNIT_WITHOUT those to leave out, with
+ * | between names; a name that no test has fails. */
 #ifndef TESTS_UNIT_H
 #define TESTS_UNIT_H
 

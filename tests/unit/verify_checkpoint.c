@@ -74,7 +74,7 @@ static struct run_bytes go_on(const char *path, const char *scheme)
 /* False where the run does not come so far. */
 static bool compare(struct sample *sample, const char *path, const char *scheme, struct solver_error *error)
 {
-    static const struct solver_checkpoint_about about = {"", "", "", "", "", "", 0.0, 0.0, 0, 0};
+    static const struct solver_checkpoint_about about = {"", "", "", "", "", "", NULL, NULL, 0.0, 0.0, 0, 0};
     if (!run_to_step(sample->scene, sample->run, HALF, error)) {
         return false;
     }

@@ -48,12 +48,14 @@ static void round_trip(void)
     trade.run[2].error[0] = 1.0 / 3.0; /* every digit is kept */
     trade.run[2].cost[VERIFY_SECONDS] = 2.0 / 3.0;
     trade.chosen = 1;
+    snprintf(trade.stopped, sizeof trade.stopped, "SIGINT");
     CU_ASSERT_TRUE_FATAL(verify_trade_write(&trade, file, &error));
     CU_ASSERT_TRUE_FATAL(verify_trade_read(file, &read, &error));
     CU_ASSERT_STRING_EQUAL(read.scene, "plain");
     CU_ASSERT_STRING_EQUAL(read.overrides, "A=1 B=2");
     CU_ASSERT_EQUAL(read.hash, trade.hash);
     CU_ASSERT_EQUAL(read.chosen, 1);
+    CU_ASSERT_STRING_EQUAL(read.stopped, "SIGINT");
     CU_ASSERT_EQUAL(read.error_count, 2);
     CU_ASSERT_STRING_EQUAL(read.error_name[1], "figure period");
     CU_ASSERT_EQUAL_FATAL(read.run_count, 5);
@@ -123,31 +125,33 @@ static void hostile(void)
     static const struct {
         const char *old, *new, *says;
     } bad[] = {
-        {"assay trade 1", "assay trade 2", "a study of another version of this program"},
-        {"assay trade 1", "assay trades", "no study of assay trade"},
+        {"assay trade 2", "assay trade 1", "a study of another version of this program"},
+        {"assay trade 2", "assay trades", "no study of assay trade"},
         {"scene\t", "scent\t", "line 2: expected scene"},
-        {"hash\t", "hash\tx", "line 6"}, /* the reader has seen the names of columns by then */
+        {"hash\t", "hash\tx", "line 7"}, /* the reader has seen the names of columns by then */
+        {"stopped\tSIGINT", "stopped\tby something that is no signal", "line 5: expected stopped"},
         {"error\tp", "error\tq", "an error that has a column"},
-        {"variant\tn", "n\tvariant", "line 6: expected the names of columns"},
-        {"\tfigure period", "\t\tfigure period", "line 6: expected up to 32 names of errors"},
-        {"scheme=upwind", "material.E=1", "line 7: expected a configuration of keys that a study varies"},
-        {"scheme=upwind", "scheme=", "line 7: expected a configuration"},
-        {"scheme=upwind", "scheme=upwind cfl=1", "line 7: expected a configuration"},
-        {"scheme=upwind", " scheme=upwind", "line 7: expected a configuration"},
-        {"\t8\t1\t12", "\t0\t1\t12", "line 7: expected as many numbers"},
-        {"\t8\t1\t12", "\t8.5\t1\t12", "line 7: expected as many numbers"},
-        {"\t8\t1\t12", "\t8\t2\t12", "line 7: expected as many numbers"},
-        {"\t8\t1\t12", "\t8\t1\tnan", "line 7: expected as many numbers"},
-        {"\t8\t1\t12", "\t8\t1\t1e999", "line 7: expected as many numbers"},
-        {"\t8\t1\t12", "\t8\t1\t-12", "line 7: expected as many numbers"},
-        {"\t8\t1\t12", "\t8\t1\t12\t12", "line 7: expected as many numbers"},
-        {"\t8\t1\t12", "\t8\t12", "line 7: expected as many numbers"},
-        {"\t8\t1\t12", "\t8\t1\t12 x", "line 7: expected as many numbers"},
+        {"variant\tn", "n\tvariant", "line 7: expected the names of columns"},
+        {"\tfigure period", "\t\tfigure period", "line 7: expected up to 32 names of errors"},
+        {"scheme=upwind", "material.E=1", "line 8: expected a configuration of keys that a study varies"},
+        {"scheme=upwind", "scheme=", "line 8: expected a configuration"},
+        {"scheme=upwind", "scheme=upwind cfl=1", "line 8: expected a configuration"},
+        {"scheme=upwind", " scheme=upwind", "line 8: expected a configuration"},
+        {"\t8\t1\t12", "\t0\t1\t12", "line 8: expected as many numbers"},
+        {"\t8\t1\t12", "\t8.5\t1\t12", "line 8: expected as many numbers"},
+        {"\t8\t1\t12", "\t8\t2\t12", "line 8: expected as many numbers"},
+        {"\t8\t1\t12", "\t8\t1\tnan", "line 8: expected as many numbers"},
+        {"\t8\t1\t12", "\t8\t1\t1e999", "line 8: expected as many numbers"},
+        {"\t8\t1\t12", "\t8\t1\t-12", "line 8: expected as many numbers"},
+        {"\t8\t1\t12", "\t8\t1\t12\t12", "line 8: expected as many numbers"},
+        {"\t8\t1\t12", "\t8\t12", "line 8: expected as many numbers"},
+        {"\t8\t1\t12", "\t8\t1\t12 x", "line 8: expected as many numbers"},
     };
     static char good[1 << 14];
     size_t size = 0;
     begin();
     trade.run_count = 1;
+    snprintf(trade.stopped, sizeof trade.stopped, "SIGINT");
     CU_ASSERT_TRUE_FATAL(verify_trade_write(&trade, file, &error));
     memcpy(good, take(&size), sizeof good);
     forge(good, "scheme", "scheme");
