@@ -244,11 +244,12 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
     double state = solver_state_bytes_per_particle(&run->state, true);
     double fields = solver_state_bytes_per_particle(&run->state, false);
     double evolved = 8.0 * (double)run->state.evolved / count;
+    double rates = 8.0 * (double)run->state.rates / count;
     double composite = (double)(run->body.stride * sizeof *run->constants);
     double bytes = geometry.bytes / count;
-    /* per stage: the geometry in each pass; fields read by each, rates written; in the update state, start and rate
-     * read, state and other fields written. The first stage writes the start instead of reading it. */
-    double stage = passes * bytes + (passes + 1.0) * fields + 4.0 * evolved;
+    /* per stage: the geometry in each pass; fields read by each, rates written; in the update state, start and rates
+     * read, state and other fields written. The first stage reads no state but that at the start. */
+    double stage = passes * bytes + (passes + 1.0) * fields + 2.0 * evolved + 2.0 * rates;
     double mass = 0.0;
     for (size_t a = 0; a < run->cloud->count; a++) {
         mass += geometry.V[a] * solver_run_density(run, a);
@@ -264,7 +265,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .seconds = run->seconds,
         .bytes_per_particle = state + bytes + composite,
         .state_bytes = fields,
-        .step_traffic = run->integrator->stages * stage,
+        .step_traffic = run->integrator->stages * stage - evolved,
         .stencil_residual = geometry.residual,
         .threads = run->threads,
     };

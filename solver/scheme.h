@@ -79,6 +79,8 @@ struct solver_scheme {
     void (*terms)(const void *system, struct solver_cost_terms *terms);
     /* Fills the table of fields (state.h) and returns its rows. */
     size_t (*fields)(void *system, struct solver_field table[SOLVER_STATE_FIELDS]);
+    /* What else holds addresses of evolved fields: they have been written anew. NULL: nothing. */
+    void (*bind)(void *system);
     /* The other fields of the initial state; v and x are there. */
     bool (*start)(void *system, struct solver_error *error);
     /* Once before each step of size dt; NULL: nothing to do. What it changes of the state is kept if the step fails. */

@@ -271,13 +271,19 @@ static bool strain_initially(struct system *system, size_t a, struct solver_erro
     return true;
 }
 
+static void bind(void *of)
+{
+    struct system *system = of;
+    if (!(system->work.terms.xsph > 0.0)) {
+        system->work.transport = system->work.v;
+    }
+}
+
 static bool start(void *of, struct solver_error *error)
 {
     struct system *system = of;
     struct solver_ulsph *work = &system->work;
-    if (work->transport == NULL) {
-        work->transport = work->v;
-    }
+    bind(system);
     if (work->cell == NULL) {
         work->cell = work->volume;
     }
@@ -444,6 +450,7 @@ const struct solver_scheme solver_scheme_ulsph = {
     .fields = fields,
     .arrays = arrays,
     .terms = terms,
+    .bind = bind,
     .start = start,
     .evaluate = evaluate,
     .refresh = refresh,

@@ -166,7 +166,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     size_t remembered = work->hardening != NULL ? work->material->flow->width : 0;
     const struct solver_field rows[] = {
         {"v", vector, true, &work->v, &work->v_rate, 0},
-        {"x", vector, true, &work->x, &work->x_rate, 0},
+        {"x", vector, true, &work->x, NULL, 0},
         {"F", tensor, true, &work->F, &work->F_rate, 0},
         {"H", work->evolves_H ? tensor : 0, true, &work->H, &work->H_rate, 0},
         {"J", work->evolves_J ? 1 : 0, true, &work->J, &work->J_rate, 0},
@@ -205,6 +205,16 @@ static void discrete_F(const struct solver_upwind_system *system, size_t a, doub
     }
 }
 
+/* H, where it is evolved and stands in the equation of J, is its cofactor. */
+void solver_upwind_bind(void *of)
+{
+    struct solver_upwind_system *system = of;
+    struct solver_upwind *work = &system->work;
+    if (work->evolves_H && !work->frozen) {
+        work->cofactor = work->H;
+    }
+}
+
 bool solver_upwind_start(void *of, struct solver_error *error)
 {
     struct solver_upwind_system *system = of;
@@ -213,9 +223,7 @@ bool solver_upwind_start(void *of, struct solver_error *error)
     const struct solver_cloud *cloud = system->body->cloud;
     size_t dim = (size_t)cloud->dim;
     size_t lanes = system->loops->lanes;
-    if (work->evolves_H && !work->frozen) {
-        work->cofactor = work->H;
-    }
+    solver_upwind_bind(system);
     for (size_t a = 0; a < cloud->count; a++) {
         double X[3] = {0};
         double F[9];

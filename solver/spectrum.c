@@ -59,12 +59,12 @@ static bool jacobian(struct solver_run *run, const size_t *index, size_t count, 
         *entry = before + change;
         ok = rates(run, error);
         for (size_t i = 0; i < count; i++) {
-            forward[i] = state->rate[index[i]];
+            forward[i] = solver_state_rate(state, index[i]);
         }
         *entry = before - change;
         ok = ok && rates(run, error);
         for (size_t i = 0; i < count; i++) {
-            matrix[i * count + j] = (forward[i] - state->rate[index[i]]) / (2.0 * change);
+            matrix[i * count + j] = (forward[i] - solver_state_rate(state, index[i])) / (2.0 * change);
         }
         *entry = before;
     }

@@ -33,7 +33,7 @@ struct solver_upwind {
     /* State; NULL where the scene does not ask for it. The linear momentum p = rho v is evolved as the velocity, which
      * is continuous where materials meet. */
     double *v, *x, *F, *H, *J; /* evolved */
-    double *v_rate, *x_rate, *F_rate, *H_rate, *J_rate;
+    double *v_rate, *F_rate, *H_rate, *J_rate; /* that of x is v */
     double *X;                    /* reference positions [m]; NULL where only their pair vectors are needed */
     double *P;                    /* stress */
     double *cofactor;             /* H, or cof F where H is not evolved but the equation of J needs it */
@@ -49,7 +49,7 @@ struct solver_upwind {
 
 struct solver_upwind_loops {
     size_t lanes;
-    /* F_rate = grad v (eq. 38b), x_rate = v, and the gradients that the reconstruction needs. */
+    /* F_rate = grad v (eq. 38b), and the gradients that the reconstruction needs. */
     void (*gradients)(const struct solver_upwind *work, size_t begin, size_t end);
     /* v_rate without tractions and body forces (eq. 38a), H_rate, J_rate (eq. 38c, 38d). Reads the gradients of
      * neighbours: all of them must be there. */

@@ -104,7 +104,6 @@ static inline __attribute__((always_inline)) void gradients_with(const struct so
         for (int I = 0; I < DIM; I++) {
             store(work->F_rate + a * TENSOR + I * LANES, G.of_vector.column[I] * half_per_V);
         }
-        store(work->x_rate + a * LANES, load(work->v + a * LANES));
         if (pressure) {
             store_slope(work->pressure_gradient + a * LANES, half_per_V * G.of_scalar);
         }
