@@ -36,7 +36,8 @@ static bool keep_fields(struct solver_keeper *keeper, struct solver_run *run, st
         const struct solver_field *field = &state->field[i];
         char name[sizeof keeper->head->name];
         (void)snprintf(name, sizeof name, "field %s", field->name);
-        if (!solver_keep(keeper, name, *field->value, state->count * field->width * sizeof(double), error)) {
+        void *value = state->in_single ? (void *)*field->single : (void *)*field->value;
+        if (!solver_keep(keeper, name, value, state->count * field->width * solver_state_bytes(state), error)) {
             return false;
         }
     }

@@ -17,10 +17,10 @@ double solver_run_clock(void)
 
 static bool is_finite(const struct solver_run *run, size_t a)
 {
-    size_t lanes = run->state.lanes;
+    struct solver_vectors v = solver_state_v(&run->state);
     double square = 0.0; /* as the loops do: what overflows when squared has grown beyond all bounds */
     for (size_t i = 0; i < (size_t)run->cloud->dim; i++) {
-        square += run->state.v[a * lanes + i] * run->state.v[a * lanes + i];
+        square += solver_vectors_get(&v, a, i) * solver_vectors_get(&v, a, i);
     }
     return isfinite(square);
 }
@@ -59,8 +59,8 @@ static bool evaluate(struct solver_run *run, int s, double dt, double *power, st
         solver_projection_note(&run->projection, state, stage);
     }
     struct solver_geometry geometry = run->scheme->geometry(run->system);
-    return solver_faces_load(&run->faces, &run->body, &geometry, t, state->lanes, state->v, state->v_rate, power,
-                             error) &&
+    return solver_faces_load(&run->faces, &run->body, &geometry, t, solver_state_v(state), solver_state_v_rate(state),
+                             power, error) &&
            solver_contact_act(&run->contact, state->x, state->v, state->lanes, t, dt, state->v_rate, error) &&
            (!run->projection.on ||
             solver_projection_act(&run->projection, state, stage, s + 1 == run->integrator->stages, dt, error));
@@ -183,7 +183,7 @@ static bool update(struct solver_run *run, int s, double t, double dt, bool *who
         good = good && (!look || run->scheme->first_broken(run->system, at.begin, at.end) == at.end);
     }
     *whole = look && good;
-    return solver_faces_constrain(&run->faces, &run->body, t, state->lanes, state->v, error);
+    return solver_faces_constrain(&run->faces, &run->body, t, solver_state_v(state), error);
 }
 
 /* What the scheme changes of a stage's state in the light of all of it. */

@@ -110,6 +110,7 @@ struct solver_scheme {
     double (*lost)(const void *system);
     /* Plastic work per unit reference volume since the start [J/m^3]; NULL: the scheme knows no plastic flow. */
     double (*dissipated)(const void *system, size_t particle);
+    const struct solver_scheme *single; /* the same with its state in single precision; NULL: there is none */
     /* What outlives a step and is not a field, for checkpoints (keep.h); NULL: there is nothing. */
     bool (*keep)(void *system, struct solver_keeper *keeper, struct solver_error *error);
 };

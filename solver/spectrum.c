@@ -40,8 +40,8 @@ static bool rates(struct solver_run *run, struct solver_error *error)
     double power;
     solver_run_refresh(run);
     return run->scheme->evaluate(run->system, run->time, 0.0, error) &&
-           solver_faces_load(&run->faces, &run->body, &geometry, run->time, state->lanes, state->v, state->v_rate,
-                             &power, error);
+           solver_faces_load(&run->faces, &run->body, &geometry, run->time, solver_state_v(state),
+                             solver_state_v_rate(state), &power, error);
 }
 
 /* matrix[i][j] = d rate_i / d U_j by central differences, which have no error but round-off where rates are linear. A
