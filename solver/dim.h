@@ -26,15 +26,35 @@ typedef double vec __attribute__((vector_size(1 * sizeof(double))));
 #error "DIM must be 1, 2 or 3"
 #endif
 
-static inline vec load(const double *from)
+/* Fields are stored in double precision, or in single, and computed with in double. */
+#ifdef SINGLE
+enum { IN_SINGLE = 1 };
+typedef float stored;
+typedef float stored_vec __attribute__((vector_size(LANES * sizeof(float))));
+
+static inline vec load(const stored *from)
+{
+    return __builtin_convertvector(*(const stored_vec *)from, vec);
+}
+
+static inline void store(stored *to, vec value)
+{
+    *(stored_vec *)to = __builtin_convertvector(value, stored_vec);
+}
+#else
+enum { IN_SINGLE = 0 };
+typedef double stored;
+
+static inline vec load(const stored *from)
 {
     return *(const vec *)from;
 }
 
-static inline void store(double *to, vec value)
+static inline void store(stored *to, vec value)
 {
     *(vec *)to = value;
 }
+#endif
 
 static inline double dot(vec a, vec b)
 {
@@ -100,7 +120,7 @@ struct tensor {
     vec column[DIM];
 };
 
-static inline struct tensor load_tensor(const double *from)
+static inline struct tensor load_tensor(const stored *from)
 {
     struct tensor T;
     for (int I = 0; I < DIM; I++) {
@@ -109,7 +129,7 @@ static inline struct tensor load_tensor(const double *from)
     return T;
 }
 
-static inline void store_tensor(double *to, struct tensor T)
+static inline void store_tensor(stored *to, struct tensor T)
 {
     for (int I = 0; I < DIM; I++) {
         store(to + I * LANES, T.column[I]);
@@ -122,6 +142,19 @@ static inline struct tensor identity(void)
     for (int I = 0; I < DIM; I++) {
         T.column[I][I] = 1.0;
     }
+    return T;
+}
+
+/* F and H, which lack the identity in single precision. */
+static inline struct tensor load_measure(const stored *from)
+{
+    struct tensor T = load_tensor(from);
+#ifdef SINGLE
+    struct tensor one = identity();
+    for (int I = 0; I < DIM; I++) {
+        T.column[I] += one.column[I];
+    }
+#endif
     return T;
 }
 

@@ -28,11 +28,11 @@ static inline void finish(const struct solver_upwind *work, size_t a, struct sum
     }
     struct tensor G = load_tensor(work->F_rate + a * TENSOR);
     if (work->evolves_J) {
-        double compression = work->frozen ? trace(G) : contract(load_tensor(work->cofactor + a * TENSOR), G);
-        work->J_rate[a] = compression + sums.volume * per_V / (2.0 * of_a->zp);
+        double compression = work->frozen ? trace(G) : contract(load_measure(work->cofactor + a * TENSOR), G);
+        work->J_rate[a] = (stored)(compression + sums.volume * per_V / (2.0 * of_a->zp));
     }
     if (work->evolves_H) {
-        struct tensor F = work->frozen ? identity() : load_tensor(work->F + a * TENSOR);
+        struct tensor F = work->frozen ? identity() : load_measure(work->F + a * TENSOR);
         store_tensor(work->H_rate + a * TENSOR, tensor_cross(F, G));
     }
 }

@@ -66,52 +66,52 @@ static bool evaluate(struct solver_run *run, int s, double dt, double *power, st
             solver_projection_act(&run->projection, state, stage, s + 1 == run->integrator->stages, dt, error));
 }
 
-/* What a stage's update reads and writes of one field: `count` numbers of each; sum is NULL where there is none. */
-struct slice {
-    double *U;
-    const double *start, *rate;
-    double *sum;
-    size_t count;
-};
-
-static struct slice slice_of(const struct solver_state *state, const struct solver_field *field, bool begins,
-                             struct solver_piece at)
+/* One stage's update of `count` numbers. The first stage of every integrator sets out from the start of the step
+ * itself.
+ */
+static void update_numbers(double *restrict U, const double *restrict start, const double *restrict rate,
+                           double *restrict sum, size_t count, const struct solver_stage *stage, double dt)
 {
-    size_t first = field->offset + at.begin * field->width;
-    const double *v = begins ? state->start : state->U; /* of the stage's beginning; it is field 0 */
-    return (struct slice){.U = state->U + first,
-                          .start = state->start + first,
-                          .rate = field->rate != NULL ? state->rate + first : v + at.begin * field->width,
-                          .sum = state->sum != NULL ? state->sum + first : NULL,
-                          .count = (at.end - at.begin) * field->width};
-}
-
-/* One stage's update. The first stage of every integrator sets out from the start of the step itself. */
-static void update_slice(const struct slice *of, const struct solver_stage *stage, double dt)
-{
-    double *restrict U = of->U;
-    const double *restrict start = of->start;
-    const double *restrict rate = of->rate;
-    double *restrict sum = of->sum;
     bool begins = stage->time == 0.0;
     if (begins && sum == NULL) {
-        for (size_t i = 0; i < of->count; i++) {
+        for (size_t i = 0; i < count; i++) {
             U[i] = start[i] + dt * stage->rate * rate[i];
         }
     } else if (begins) {
-        for (size_t i = 0; i < of->count; i++) {
+        for (size_t i = 0; i < count; i++) {
             U[i] = start[i] + dt * stage->rate * rate[i];
             sum[i] = stage->accumulate * rate[i];
         }
     } else if (sum == NULL) {
-        for (size_t i = 0; i < of->count; i++) {
+        for (size_t i = 0; i < count; i++) {
             U[i] = start[i] + stage->keep * (U[i] - start[i]) + dt * stage->rate * rate[i];
         }
     } else {
-        for (size_t i = 0; i < of->count; i++) {
+        for (size_t i = 0; i < count; i++) {
             U[i] = start[i] + stage->keep * (U[i] - start[i]) + dt * (stage->rate * rate[i] + stage->sum * sum[i]);
             sum[i] += stage->accumulate * rate[i];
         }
+    }
+}
+
+/* The same of a field, for a piece of the particles. What has no rate of its own has the v of the stage's beginning,
+ * field 0: that at the start of the step, or the one that is about to be updated. */
+static void update_field(const struct solver_state *state, const struct solver_field *field,
+                         const struct solver_stage *stage, double dt, struct solver_piece at)
+{
+    bool begins = stage->time == 0.0;
+    size_t first = field->offset + at.begin * field->width;
+    size_t of_rate = field->rate != NULL ? first : at.begin * field->width;
+    size_t count = (at.end - at.begin) * field->width;
+    if (state->in_single) {
+        float *v = begins ? state->single.start : state->single.U;
+        state->single.loops->update(state->single.U + first, state->single.start + first,
+                                    (field->rate != NULL ? state->single.rate : v) + of_rate,
+                                    state->single.sum != NULL ? state->single.sum + first : NULL, count, stage, dt);
+    } else {
+        double *v = begins ? state->start : state->U;
+        update_numbers(state->U + first, state->start + first, (field->rate != NULL ? state->rate : v) + of_rate,
+                       state->sum != NULL ? state->sum + first : NULL, count, stage, dt);
     }
 }
 
@@ -175,8 +175,7 @@ static bool update(struct solver_run *run, int s, double t, double dt, bool *who
         struct solver_piece at = solver_piece_at(piece, count);
         for (size_t f = state->field_count; f-- > 0;) { /* v is the first, and the rate of the last */
             if (state->field[f].evolved) {
-                struct slice slice = slice_of(state, &state->field[f], s == 0, at);
-                update_slice(&slice, stage, dt);
+                update_field(state, &state->field[f], stage, dt, at);
             }
         }
         run->scheme->refresh(run->system, at.begin, at.end);

@@ -119,6 +119,7 @@ struct solver_scheme {
 const struct solver_scheme *const *solver_schemes(void);
 const struct solver_scheme *solver_scheme_find(const char *name);
 
-extern const struct solver_scheme solver_scheme_upwind, solver_scheme_jst, solver_scheme_ulsph;
+extern const struct solver_scheme solver_scheme_upwind, solver_scheme_upwind_single, solver_scheme_jst,
+    solver_scheme_ulsph;
 
 #endif

@@ -65,7 +65,7 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     }
     system->residuals = solver_stencil_check(*stencil, cloud);
     return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
-           (strcmp(scene->precision, "mixed") != 0 || solver_stencil_narrow(*stencil, error));
+           (strcmp(scene->precision, "double") == 0 || solver_stencil_narrow(*stencil, error));
 }
 
 bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error)
@@ -195,19 +195,17 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     return sizeof rows / sizeof *rows;
 }
 
-/* F = sum_b (x_b - x_a) (x) C_ab / 2V_a, row by row. */
-static void discrete_F(const struct solver_upwind_system *system, size_t a, double *F)
+void solver_upwind_discrete_F(const struct solver_stencil *stencil, const struct solver_vectors *x, const double *X,
+                              size_t a, double *F)
 {
-    const struct solver_stencil *stencil = system->stencil;
-    const double *x = system->work.x;
     size_t dim = (size_t)stencil->dim;
-    size_t lanes = system->loops->lanes;
     memset(F, 0, dim * dim * sizeof *F);
     for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
         const double *C = solver_stencil_C(stencil, ab);
         size_t b = stencil->graph.neighbour[ab];
         for (size_t i = 0; i < dim; i++) {
-            double d = x[b * lanes + i] - x[a * lanes + i];
+            double d = solver_vectors_get(x, b, i) - solver_vectors_get(x, a, i);
+            d += X != NULL ? X[b * dim + i] - X[a * dim + i] : 0.0;
             for (size_t I = 0; I < dim; I++) {
                 F[i * dim + I] += 0.5 * d * C[I] / stencil->V[a];
             }
@@ -233,6 +231,7 @@ bool solver_upwind_start(void *of, struct solver_error *error)
     const struct solver_cloud *cloud = system->body->cloud;
     size_t dim = (size_t)cloud->dim;
     size_t lanes = system->loops->lanes;
+    const struct solver_vectors x = {.wide = work->x, .lanes = lanes};
     solver_upwind_bind(system);
     for (size_t a = 0; a < cloud->count; a++) {
         double X[3] = {0};
@@ -242,7 +241,7 @@ bool solver_upwind_start(void *of, struct solver_error *error)
             memcpy(work->X + a * lanes, X, dim * sizeof *X);
         }
         if (!solver_scene_has(scene, SOLVER_INITIAL_F)) {
-            discrete_F(system, a, F);
+            solver_upwind_discrete_F(system->stencil, &x, NULL, a, F);
         } else if (!solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {
             return false;
         }
@@ -420,6 +419,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .correct = correct,
     .keep = keep,
     .iterations = iterations,
+    .single = &solver_scheme_upwind_single,
     .arrays = solver_upwind_arrays,
     .terms = solver_upwind_terms,
     SOLVER_UPWIND_SHARED,

@@ -93,7 +93,9 @@ bool solver_state_create(struct solver_state *state, size_t count, int dim, bool
                          const struct solver_integrator *integrator, const struct solver_field *table, size_t rows,
                          struct solver_error *error)
 {
+    static const struct solver_single_loops *const loops[][3] = SOLVER_LOOPS(solver_single);
     *state = (struct solver_state){.count = count, .lanes = solver_state_lanes(dim), .in_single = single};
+    state->single.loops = loops[solver_path()][dim - 1];
     for (size_t i = 0; i < rows; i++) {
         clear(&table[i], single);
     }

@@ -10,6 +10,7 @@
 #include "solver/cost.h"
 #include "solver/error.h"
 #include "solver/integrator.h"
+#include "solver/single.h"
 #include "solver/vectors.h"
 
 #include <stdbool.h>
@@ -49,6 +50,7 @@ struct solver_state {
     struct {
         float *U, *start, *rate, *sum, *fixed;
         float *v, *u, *v_rate; /* u: displacement */
+        const struct solver_single_loops *loops;
     } single;
 };
 

@@ -17,7 +17,7 @@ enum weighting { WIDE, NARROW, LEAST_SQUARES };
 
 static inline __attribute__((always_inline)) void add_difference(const struct solver_upwind *work,
                                                                  enum weighting weighting, size_t ab, vec difference,
-                                                                 const double *scalar, double scalar_a,
+                                                                 const stored *scalar, double scalar_a,
                                                                  struct gradients *G)
 {
     struct weights w = weighting == LEAST_SQUARES ? load_weights(work->least_squares + ab * DIM, DIM)
@@ -26,21 +26,21 @@ static inline __attribute__((always_inline)) void add_difference(const struct so
         G->of_vector.column[I] += difference * w.each[I];
     }
     if (scalar != NULL) {
-        G->of_scalar += (*scalar - scalar_a) * w.together;
+        G->of_scalar += ((double)*scalar - scalar_a) * w.together;
     }
 }
 
 /* sum_b (f_b - f_a) w_ab; `scalar` may be NULL. Sums over every other neighbour are kept apart, so that one does not
  * wait for the last; on a line there are too few for that. */
 static inline __attribute__((always_inline)) struct gradients sum_gradients(const struct solver_upwind *work, size_t a,
-                                                                            const double *field, const double *scalar,
+                                                                            const stored *field, const stored *scalar,
                                                                             enum weighting weighting)
 {
     struct gradients even = {.of_scalar = {0}};
     struct gradients odd = {.of_scalar = {0}};
     const uint32_t *neighbour = work->neighbour;
     vec f_a = load(field + a * LANES);
-    double s_a = scalar != NULL ? scalar[a] : 0.0;
+    double s_a = scalar != NULL ? (double)scalar[a] : 0.0;
     size_t ab = work->row[a];
     size_t end = work->row[a + 1];
     for (; DIM > 1 && ab + 1 < end; ab += 2) {
@@ -71,7 +71,7 @@ static inline void stress_gradient(const struct solver_upwind *work, size_t a, c
     struct tensor P_a = load_tensor(work->P + a * TENSOR);
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
         const double *w = weights + ab * stride;
-        const double *P_b = work->P + (size_t)work->neighbour[ab] * TENSOR;
+        const stored *P_b = work->P + (size_t)work->neighbour[ab] * TENSOR;
         for (int column = 0; column < DIM; column++) {
             vec difference = load(P_b + column * LANES) - P_a.column[column];
             for (int I = 0; I < DIM; I++) {
@@ -86,7 +86,7 @@ static inline void stress_gradient(const struct solver_upwind *work, size_t a, c
     }
 }
 
-static inline void store_slope(double *to, vec slope)
+static inline void store_slope(stored *to, vec slope)
 {
     for (int I = DIM; I < LANES; I++) {
         slope[I] = 0.0;
@@ -124,7 +124,7 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
         gradients_with(work, begin, end, false, false);
     }
     for (size_t a = begin; !own && work->v_gradient != NULL && a < end; a++) {
-        const double *field = work->pressure_gradient != NULL ? work->pressure : NULL;
+        const stored *field = work->pressure_gradient != NULL ? work->pressure : NULL;
         struct gradients G = sum_gradients(work, a, work->v, field, LEAST_SQUARES);
         store_tensor(work->v_gradient + a * TENSOR, G.of_vector);
         if (field != NULL) {
@@ -177,7 +177,7 @@ struct terms {
 static inline __attribute__((always_inline)) vec pair_area(const struct solver_upwind *work, size_t a, size_t b,
                                                            vec distance)
 {
-    vec area = {0};
+    vec area = IN_SINGLE ? distance : (vec){0}; /* of the identities */
     for (int I = 0; I < DIM; I++) {
         area += (load(work->cofactor + a * TENSOR + I * LANES) + load(work->cofactor + b * TENSOR + I * LANES)) *
                 spread(0.5 * distance, I);
@@ -232,7 +232,7 @@ static inline __attribute__((always_inline)) void add_fluxes(const struct solver
     sums->jumps += (terms.composite ? z.s * face : face) * jump;
     sums->normals += (terms.composite ? (z.p - z.s) * normal * by_normal : normal * by_normal) * along;
     if (terms.volume && !terms.whole && alike) {
-        sums->volume += by_volume[0] * (work->pressure[b] - work->pressure[a]);
+        sums->volume += by_volume[0] * ((double)work->pressure[b] - (double)work->pressure[a]);
         if (terms.reconstruct) {
             vec slope = load(work->pressure_gradient + a * LANES) + load(work->pressure_gradient + b * LANES);
             sums->slopes += by_volume * (slope * distance);
@@ -256,9 +256,9 @@ static inline __attribute__((always_inline)) struct sums combine(const struct pa
 
 /* Neighbours lie all over memory, and the work on a pair is shorter than the way there: what a neighbour brings is
  * asked for so many pairs ahead. */
-enum { AHEAD = 16, LINE = 64 / sizeof(double) };
+enum { AHEAD = 16, LINE = 64 / sizeof(stored) };
 
-static inline void fetch(const struct solver_upwind *work, const double *slope, size_t b)
+static inline void fetch(const struct solver_upwind *work, const stored *slope, size_t b)
 {
     for (int i = 0; i < TENSOR; i += LINE) {
         __builtin_prefetch(work->P + b * TENSOR + i);
@@ -273,11 +273,11 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
                                                                    size_t last, struct terms terms)
 {
     struct pair_sums sums = {.volume = 0.0};
-    const double *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
-    const double *x = terms.frozen ? work->X : work->x;
+    const stored *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
+    const stored *x = terms.frozen ? work->X : work->x;
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
     struct impedances z = {of_a->zp, of_a->zs};
-    bool placed = terms.frozen || terms.reconstruct || terms.volume; /* else X need not be there */
+    bool placed = IN_SINGLE || terms.frozen || terms.reconstruct || terms.volume; /* else X need not be there */
     vec X_a = placed ? load(work->X + a * LANES) : (vec){0};
     vec x_a = load(x + a * LANES);
     vec v_a = load(work->v + a * LANES);
@@ -286,9 +286,12 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
         size_t b = work->neighbour[ab];
         fetch(work, slope, work->neighbour[ab + AHEAD < last ? ab + AHEAD : last]);
         struct pair pair = load_pair(work, ab, terms.narrow);
-        const double *P_b = work->P + b * TENSOR;
+        const stored *P_b = work->P + b * TENSOR;
         vec distance = placed ? load(work->X + b * LANES) - X_a : (vec){0};
         vec along = terms.frozen ? distance : load(x + b * LANES) - x_a;
+        if (IN_SINGLE && !terms.frozen) {
+            along += distance; /* what is stored is displacements */
+        }
         vec jump = load(work->v + b * LANES) - v_a;
         if (terms.composite) {
             z = pair_impedances(of_a, work->constants + b);
@@ -351,6 +354,7 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end)
     }
 }
 
+#ifndef SINGLE
 static void stresses(const struct solver_upwind *work, size_t begin, size_t end)
 {
     if (work->cofactor != NULL && !work->evolves_H) {
@@ -422,3 +426,12 @@ const struct solver_upwind_loops DIM_NAME(solver_upwind) = {
     .particle_terms = particle_terms,
     .measures = measures,
 };
+#else
+const struct solver_upwind_single_loops DIM_NAME(solver_upwind) = {
+    .gradients = gradients,
+    .rates = rates,
+    .gradient_terms = gradient_terms,
+    .rate_terms = rate_terms,
+    .particle_terms = particle_terms,
+};
+#endif
