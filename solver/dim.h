@@ -8,6 +8,10 @@
 
 #include <stddef.h>
 
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
 #define SOLVER_DIM_PASTE(name, dim, path)  name##_##dim##d_##path
 #define SOLVER_DIM_EXPAND(name, dim, path) SOLVER_DIM_PASTE(name, dim, path)
 /* DIM_NAME(f) is f_3d_avx2 for the dimension and path (path.h) that are compiled. */
@@ -26,20 +30,40 @@ typedef double vec __attribute__((vector_size(1 * sizeof(double))));
 #error "DIM must be 1, 2 or 3"
 #endif
 
+/* To single precision and back. GCC 12 makes __builtin_convertvector of four numbers two conversions of two. */
+typedef float narrow_vec __attribute__((vector_size(LANES * sizeof(float))));
+
+static inline vec widen_vec(narrow_vec a)
+{
+#if DIM == 3 && defined __AVX__
+    return _mm256_cvtps_pd(a);
+#else
+    return __builtin_convertvector(a, vec);
+#endif
+}
+
+static inline narrow_vec narrow_down(vec a)
+{
+#if DIM == 3 && defined __AVX__
+    return _mm256_cvtpd_ps(a);
+#else
+    return __builtin_convertvector(a, narrow_vec);
+#endif
+}
+
 /* Fields are stored in double precision, or in single, and computed with in double. */
 #ifdef SINGLE
 enum { IN_SINGLE = 1 };
 typedef float stored;
-typedef float stored_vec __attribute__((vector_size(LANES * sizeof(float))));
 
 static inline vec load(const stored *from)
 {
-    return __builtin_convertvector(*(const stored_vec *)from, vec);
+    return widen_vec(*(const narrow_vec *)from);
 }
 
 static inline void store(stored *to, vec value)
 {
-    *(stored_vec *)to = __builtin_convertvector(value, stored_vec);
+    *(narrow_vec *)to = narrow_down(value);
 }
 #else
 enum { IN_SINGLE = 0 };

@@ -41,8 +41,8 @@ static inline __attribute__((always_inline)) struct pair load_pair(const struct 
     }
     const float *from = work->narrow + ab * PAIR;
 #if DIM == 3
-    typedef float four __attribute__((vector_size(4 * sizeof(float)), aligned(sizeof(float))));
-    vec together = __builtin_convertvector(*(const four *)from, vec);
+    typedef narrow_vec loose __attribute__((aligned(sizeof(float))));
+    vec together = widen_vec(*(const loose *)from);
 #else
     vec together = {0};
     for (int I = 0; I < DIM; I++) {

@@ -195,21 +195,34 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     return sizeof rows / sizeof *rows;
 }
 
-void solver_upwind_discrete_F(const struct solver_stencil *stencil, const struct solver_vectors *x, const double *X,
-                              size_t a, double *F)
+void solver_upwind_gradient(const struct solver_stencil *stencil, const struct solver_vectors *x, const double *X,
+                            size_t a, double *G)
 {
     size_t dim = (size_t)stencil->dim;
-    memset(F, 0, dim * dim * sizeof *F);
+    memset(G, 0, dim * dim * sizeof *G);
     for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
         const double *C = solver_stencil_C(stencil, ab);
         size_t b = stencil->graph.neighbour[ab];
         for (size_t i = 0; i < dim; i++) {
             double d = solver_vectors_get(x, b, i) - solver_vectors_get(x, a, i);
-            d += X != NULL ? X[b * dim + i] - X[a * dim + i] : 0.0;
+            d -= X != NULL ? X[b * dim + i] - X[a * dim + i] : 0.0;
             for (size_t I = 0; I < dim; I++) {
-                F[i * dim + I] += 0.5 * d * C[I] / stencil->V[a];
+                G[i * dim + I] += 0.5 * d * C[I] / stencil->V[a];
             }
         }
+    }
+}
+
+/* F of the places where particles are. The gradient of X itself is the identity, but for what rounded pair vectors make
+ * of it, which is left out: a body at rest has no strain. */
+static void discrete_F(const struct solver_upwind_system *system, size_t a, double *F)
+{
+    const struct solver_vectors x = {.wide = system->work.x, .lanes = system->loops->lanes};
+    bool rounded = system->stencil->narrow != NULL;
+    size_t dim = (size_t)system->body->cloud->dim;
+    solver_upwind_gradient(system->stencil, &x, rounded ? system->body->cloud->X : NULL, a, F);
+    for (size_t i = 0; rounded && i < dim; i++) {
+        F[i * dim + i] += 1.0;
     }
 }
 
@@ -231,7 +244,6 @@ bool solver_upwind_start(void *of, struct solver_error *error)
     const struct solver_cloud *cloud = system->body->cloud;
     size_t dim = (size_t)cloud->dim;
     size_t lanes = system->loops->lanes;
-    const struct solver_vectors x = {.wide = work->x, .lanes = lanes};
     solver_upwind_bind(system);
     for (size_t a = 0; a < cloud->count; a++) {
         double X[3] = {0};
@@ -241,7 +253,7 @@ bool solver_upwind_start(void *of, struct solver_error *error)
             memcpy(work->X + a * lanes, X, dim * sizeof *X);
         }
         if (!solver_scene_has(scene, SOLVER_INITIAL_F)) {
-            solver_upwind_discrete_F(system->stencil, &x, NULL, a, F);
+            discrete_F(system, a, F);
         } else if (!solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {
             return false;
         }

@@ -48,9 +48,10 @@ double solver_upwind_energy(const void *of, size_t a);
 double solver_upwind_dissipated(const void *of, size_t a);
 double solver_upwind_lost(const void *of);
 
-/* F = sum_b (x_b - x_a) (x) C_ab / 2V_a, row by row; with X, [count][dim], x are displacements from there. */
-void solver_upwind_discrete_F(const struct solver_stencil *stencil, const struct solver_vectors *x, const double *X,
-                              size_t a, double *F);
+/* The stencil's gradient at particle a, sum_b (x_b - x_a) (x) C_ab / 2V_a, row by row, of x, or of x - X where X,
+ * [count][dim], is not NULL. */
+void solver_upwind_gradient(const struct solver_stencil *stencil, const struct solver_vectors *x, const double *X,
+                            size_t a, double *G);
 
 /* What particle a remembers; NULL: nothing is plastic. */
 static inline const double *solver_upwind_memory(const struct solver_upwind *work, size_t a)

@@ -251,14 +251,14 @@ static double energy(const void *of, size_t a)
 
 /* --- start and rates --- */
 
-/* Writes F less the identity, from rows. */
-static void put_F(const struct system *system, size_t a, const double *rows)
+/* Writes F less the identity, from the rows of either. */
+static void put_F(const struct system *system, size_t a, const double *rows, double identity)
 {
     size_t dim = (size_t)system->base.body->cloud->dim;
     size_t lanes = system->base.loops->lanes;
     for (size_t i = 0; i < dim; i++) {
         for (size_t I = 0; I < dim; I++) {
-            system->work.F[(a * dim + I) * lanes + i] = (float)(rows[i * dim + I] - (i == I ? 1.0 : 0.0));
+            system->work.F[(a * dim + I) * lanes + i] = (float)(rows[i * dim + I] - (i == I ? identity : 0.0));
         }
     }
 }
@@ -297,11 +297,13 @@ static bool start(void *of, struct solver_error *error)
             system->work.X[a * lanes + i] = (float)(X[i] - system->centre[i]);
         }
         if (!solver_scene_has(scene, SOLVER_INITIAL_F)) {
-            solver_upwind_discrete_F(system->base.stencil, &u, cloud->X, a, F);
-        } else if (!solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {
+            solver_upwind_gradient(system->base.stencil, &u, NULL, a, F); /* that of X is the identity */
+            put_F(system, a, F, 0.0);
+        } else if (solver_scene_eval(scene, SOLVER_INITIAL_F, X, 0.0, F, dim * dim, error)) {
+            put_F(system, a, F, 1.0);
+        } else {
             return false;
         }
-        put_F(system, a, F);
     }
     bind(system);
     start_measures(system);
