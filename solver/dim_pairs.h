@@ -30,16 +30,16 @@ static inline __attribute__((always_inline)) struct weights load_weights(const d
     return w;
 }
 
-static inline __attribute__((always_inline)) struct pair load_pair(const struct solver_upwind *work, size_t ab,
+static inline __attribute__((always_inline)) struct pair load_pair(const struct solver_upwind *work, size_t record,
                                                                    bool narrow)
 {
     struct pair pair;
     if (!narrow) {
-        pair.C = load_weights(work->pair + ab * PAIR, PAIR);
-        pair.A = splat(work->pair[ab * PAIR + DIM]);
+        pair.C = load_weights(work->pair + record * PAIR, PAIR);
+        pair.A = splat(work->pair[record * PAIR + DIM]);
         return pair;
     }
-    const float *from = work->narrow + ab * PAIR;
+    const float *from = work->narrow + record * PAIR;
 #if DIM == 3
     typedef narrow_vec loose __attribute__((aligned(sizeof(float))));
     vec together = widen_vec(*(const loose *)from);

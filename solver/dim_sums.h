@@ -7,6 +7,12 @@
 
 enum { TENSOR = DIM * LANES, PAIR = DIM + 1 };
 
+/* Of the pairs of particle a's row, what is added to their numbers for their records. */
+static inline size_t pair_shift(const struct solver_upwind *work, size_t a)
+{
+    return work->shared != NULL ? work->shared[a] - work->row[a] : 0;
+}
+
 /* Sums over the neighbours of one particle, in units of the pair vectors. */
 struct sums {
     vec force;       /* twice the internal force: sum_b P_b D_ab + P_a sum_b C_ab */

@@ -54,6 +54,7 @@ static inline struct sums sum_pairs(const struct solver_upwind *work, const stru
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
     const double *weights = work->transposed != NULL ? work->transposed : work->pair;
     size_t stride = work->transposed != NULL ? DIM : PAIR;
+    size_t shift = work->transposed != NULL ? 0 : pair_shift(work, a);
     double outer = -jst->biharmonic; /* eq. 3.13b */
     vec v_a = load(work->v + a * LANES);
     vec L_a = load(jst->v_laplacian + a * LANES);
@@ -66,7 +67,7 @@ static inline struct sums sum_pairs(const struct solver_upwind *work, const stru
         double l_ba = outer * jst->laplacian[2 * ab + 1];
         double k_ab = jst->exchange != NULL ? jst->harmonic * jst->exchange[ab] : 0.0;
         for (int I = 0; I < DIM; I++) {
-            sums.force += load(work->P + b * TENSOR + I * LANES) * weights[ab * stride + (size_t)I];
+            sums.force += load(work->P + b * TENSOR + I * LANES) * weights[(ab + shift) * stride + (size_t)I];
         }
         momentum += l_ba * load(jst->v_laplacian + b * LANES) - l_ab * L_a;
         momentum += (k_ab * mean(of_a->zp, of_b->zp)) * (load(work->v + b * LANES) - v_a);

@@ -3,8 +3,9 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
-enum { ALIGNMENT = 64 };
+enum { ALIGNMENT = 64, LARGE_PAGE = 1 << 21 };
 
 size_t solver_alloc_bytes(size_t count, size_t size)
 {
@@ -19,10 +20,15 @@ bool solver_alloc(void **out, size_t count, size_t size, const char *what, struc
         return solver_fail(error, SOLVER_NO_MEMORY, "%s: %zu x %zu bytes is more than can be addressed", what, count,
                            size);
     }
-    *out = aligned_alloc(ALIGNMENT, bytes);
+    /* Loops gather from all over a large array: on small pages they wait for the tables of pages. */
+    bool large = bytes >= 4 * (size_t)LARGE_PAGE;
+    *out = aligned_alloc(large ? LARGE_PAGE : ALIGNMENT, bytes);
     if (*out == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for %.1f MiB; choose a smaller n", what,
                            (double)bytes / 1048576.0);
+    }
+    if (large) {
+        (void)madvise(*out, bytes, MADV_HUGEPAGE); /* where it is refused, all works as well */
     }
     memset(*out, 0, bytes);
     return true;

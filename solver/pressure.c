@@ -139,13 +139,14 @@ static void measure(struct solver_pressure *of)
     size_t dim = (size_t)stencil->dim;
     for (size_t a = 0; a < stencil->count; a++) {
         double sum = 0.0;
+        size_t shift = solver_stencil_shift(stencil, a);
         for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
             double square = 0.0;
             for (size_t i = 0; i < dim; i++) {
                 double d = X[stencil->graph.neighbour[ab] * dim + i] - X[a * dim + i];
                 square += d * d;
             }
-            sum += solver_stencil_C(stencil, ab)[dim] / sqrt(square);
+            sum += solver_stencil_C(stencil, ab + shift)[dim] / sqrt(square);
         }
         of->volume += stencil->V[a];
         of->laplacian = fmax(of->laplacian, sum / stencil->V[a]);

@@ -33,6 +33,7 @@ static void weights(const struct solver_pressure *of, size_t begin, size_t end)
     double scale = of->dissipation / (2.0 * of->constants.zp);
     for (size_t a = begin; a < end; a++) {
         struct tensor H_a = area_map(work, a);
+        size_t shift = pair_shift(work, a);
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
             size_t b = work->neighbour[ab];
             struct tensor H_b = area_map(work, b);
@@ -44,8 +45,8 @@ static void weights(const struct solver_pressure *of, size_t begin, size_t end)
                 area += (H_a.column[I] + H_b.column[I]) * half;
             }
             double normal = dot(along, area);
-            of->weight[ab] =
-                scale * work->pair[ab * PAIR + DIM] * normal * normal / (dot(along, along) * dot(distance, distance));
+            of->weight[ab] = scale * work->pair[(ab + shift) * PAIR + DIM] * normal * normal /
+                             (dot(along, along) * dot(distance, distance));
         }
     }
 }
@@ -58,8 +59,9 @@ static void diagonal(const struct solver_pressure *of, size_t begin, size_t end)
         vec own = times(H, work->row_sum + a * DIM);
         double sum = dot(load(of->mobility + a * LANES) * own, own);
         double flux = 0.0;
+        size_t shift = pair_shift(work, a);
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
-            vec area = times(H, work->pair + ab * PAIR);
+            vec area = times(H, work->pair + (ab + shift) * PAIR);
             sum += dot(load(of->mobility + work->neighbour[ab] * LANES) * area, area);
             flux += of->weight[ab];
         }
@@ -73,9 +75,10 @@ static void accelerate(const struct solver_pressure *of, const double *q, size_t
     const struct solver_upwind *work = of->work;
     for (size_t a = begin; a < end; a++) {
         vec force = q[a] * times(area_map(work, a), work->row_sum + a * DIM);
+        size_t shift = pair_shift(work, a);
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
             size_t b = work->neighbour[ab];
-            const double *D = work->transposed != NULL ? work->transposed + ab * DIM : work->pair + ab * PAIR;
+            const double *D = work->transposed != NULL ? work->transposed + ab * DIM : work->pair + (ab + shift) * PAIR;
             force += q[b] * times(area_map(work, b), D);
         }
         store(of->acceleration + a * LANES, load(of->mobility + a * LANES) * force);
@@ -88,10 +91,11 @@ static void slopes(const struct solver_pressure *of, const double *q, size_t beg
     for (size_t a = begin; a < end; a++) {
         vec slope = {0};
         double per_V = 0.5 / work->V[a];
+        size_t shift = pair_shift(work, a);
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
             double difference = q[work->neighbour[ab]] - q[a];
             for (int I = 0; I < DIM; I++) {
-                slope[I] += difference * work->pair[ab * PAIR + (size_t)I];
+                slope[I] += difference * work->pair[(ab + shift) * PAIR + (size_t)I];
             }
         }
         store(of->slope + a * LANES, slope * per_V);
@@ -108,11 +112,12 @@ static inline __attribute__((always_inline)) void balance_with(const struct solv
         vec v_a = load(v + a * LANES);
         vec moment = {0};
         double flux = 0.0;
+        size_t shift = pair_shift(work, a);
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
             size_t b = work->neighbour[ab];
             vec difference = load(v + b * LANES) - v_a;
             for (int I = 0; I < DIM; I++) {
-                G.column[I] += difference * work->pair[ab * PAIR + (size_t)I];
+                G.column[I] += difference * work->pair[(ab + shift) * PAIR + (size_t)I];
             }
             double jump = q[b] - q[a];
             if (reconstruct) {
@@ -150,8 +155,9 @@ static void give_back(const struct solver_pressure *of, double *out, size_t begi
         for (int I = 0; I < DIM; I++) {
             sum[I] = moment[I] * work->row_sum[a * DIM + (size_t)I];
         }
+        size_t shift = pair_shift(work, a);
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
-            const double *D = work->transposed != NULL ? work->transposed + ab * DIM : work->pair + ab * PAIR;
+            const double *D = work->transposed != NULL ? work->transposed + ab * DIM : work->pair + (ab + shift) * PAIR;
             const double *moment_b = of->moment + (size_t)work->neighbour[ab] * LANES;
             for (int I = 0; I < DIM; I++) {
                 sum[I] += moment_b[I] * D[I];
@@ -171,10 +177,11 @@ static void diffuse(const struct solver_pressure *of, const double *q, double et
     const struct solver_upwind *work = of->work;
     for (size_t a = begin; a < end; a++) {
         double sum = 0.0;
+        size_t shift = pair_shift(work, a);
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
             size_t b = work->neighbour[ab];
             vec distance = distance_of(work, a, b);
-            sum += work->pair[ab * PAIR + DIM] * (q[b] - q[a]) / sqrt(dot(distance, distance));
+            sum += work->pair[(ab + shift) * PAIR + DIM] * (q[b] - q[a]) / sqrt(dot(distance, distance));
         }
         out[a] += eta * sum;
     }

@@ -36,6 +36,7 @@ static struct sums sum_weights(const struct solver_stencil *stencil, const doubl
     size_t dim = (size_t)stencil->dim;
     struct sums sums = {.scale = 0.0};
     double second = 0.0;
+    size_t shift = solver_stencil_shift(stencil, a);
     for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
         const double *X_b = X + stencil->graph.neighbour[ab] * dim;
         double d[3] = {0};
@@ -44,7 +45,7 @@ static struct sums sum_weights(const struct solver_stencil *stencil, const doubl
             d[i] = X_b[i] - X[a * dim + i];
             square += d[i] * d[i];
         }
-        weight[ab] = solver_stencil_C(stencil, ab)[dim] / sqrt(square);
+        weight[ab] = solver_stencil_C(stencil, ab + shift)[dim] / sqrt(square);
         second += weight[ab] * square;
         for (size_t i = 0; i < dim; i++) {
             sums.moment[i] += weight[ab] * d[i];
@@ -61,8 +62,8 @@ static struct sums sum_weights(const struct solver_stencil *stencil, const doubl
 static double correction(const struct solver_stencil *stencil, size_t a, size_t ab, const double *moment)
 {
     size_t dim = (size_t)stencil->dim;
-    const double *g =
-        stencil->least_squares != NULL ? stencil->least_squares + ab * dim : solver_stencil_C(stencil, ab);
+    const double *g = stencil->least_squares != NULL ? stencil->least_squares + ab * dim
+                                                     : solver_stencil_C(stencil, ab + solver_stencil_shift(stencil, a));
     double scale = stencil->least_squares != NULL ? 1.0 : 0.5 / stencil->V[a];
     double sum = 0.0;
     for (size_t i = 0; i < dim; i++) {

@@ -34,6 +34,7 @@ static void bind_stencil(struct solver_upwind_system *system)
     system->work.row = stencil->graph.row;
     system->work.neighbour = stencil->graph.neighbour;
     system->work.pair = stencil->pair;
+    system->work.shared = stencil->shared;
     system->work.narrow = stencil->narrow;
     system->work.unit = stencil->unit;
     system->work.transposed = stencil->transposed;
@@ -65,6 +66,7 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     }
     system->residuals = solver_stencil_check(*stencil, cloud);
     return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
+           solver_stencil_share(*stencil, error) &&
            (strcmp(scene->precision, "double") == 0 || solver_stencil_narrow(*stencil, error));
 }
 
@@ -199,9 +201,10 @@ void solver_upwind_gradient(const struct solver_stencil *stencil, const struct s
                             size_t a, double *G)
 {
     size_t dim = (size_t)stencil->dim;
+    size_t shift = solver_stencil_shift(stencil, a);
     memset(G, 0, dim * dim * sizeof *G);
     for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
-        const double *C = solver_stencil_C(stencil, ab);
+        const double *C = solver_stencil_C(stencil, ab + shift);
         size_t b = stencil->graph.neighbour[ab];
         for (size_t i = 0; i < dim; i++) {
             double d = solver_vectors_get(x, b, i) - solver_vectors_get(x, a, i);

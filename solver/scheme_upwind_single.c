@@ -45,6 +45,7 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
     system->convert = convert[solver_path()][body->cloud->dim - 1];
     system->work = (struct solver_upwind_single){.row = base->row,
                                                  .neighbour = base->neighbour,
+                                                 .shared = base->shared,
                                                  .narrow = base->narrow,
                                                  .unit = base->unit,
                                                  .row_sum = base->row_sum,

@@ -89,6 +89,7 @@ bool solver_stencil_reserve(struct solver_stencil *stencil, const struct solver_
     stencil->spacing = cloud->spacing;
     stencil->unit = 1.0;
     stencil->pairs = stencil->graph.row[cloud->count];
+    stencil->records = stencil->pairs;
     stencil->face_point_count = cloud->face_point_count;
     if (!solver_alloc((void **)&stencil->pair, stencil->pairs * (dim + 1), sizeof(double), "pair vectors", error) ||
         !solver_alloc((void **)&stencil->row_sum, cloud->count * dim, sizeof(double), "pair vector sums", error) ||
@@ -179,6 +180,7 @@ void solver_stencil_free(struct solver_stencil *stencil)
     }
     solver_graph_free(&stencil->graph);
     free(stencil->pair);
+    free(stencil->shared);
     free(stencil->narrow);
     free(stencil->transposed);
     free(stencil->row_sum);
@@ -233,10 +235,11 @@ void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_c
     static const char group[] = "stencil";
     size_t dim = (size_t)stencil->dim;
     solver_graph_arrays(&stencil->graph, group, arrays);
-    solver_cost_array(arrays, group, "pair vectors and areas", stencil->pair, stencil->pairs * (dim + 1),
+    solver_cost_array(arrays, group, "pair vectors and areas", stencil->pair, stencil->records * (dim + 1),
                       sizeof(double));
-    solver_cost_array(arrays, group, "narrow pair vectors and areas", stencil->narrow, stencil->pairs * (dim + 1),
+    solver_cost_array(arrays, group, "narrow pair vectors and areas", stencil->narrow, stencil->records * (dim + 1),
                       sizeof(float));
+    solver_cost_array(arrays, group, "rows of pair vectors", stencil->shared, stencil->count, sizeof *stencil->shared);
     solver_cost_array(arrays, group, "transposed", stencil->transposed, stencil->pairs * dim, sizeof(double));
     solver_cost_array(arrays, group, "least squares", stencil->least_squares, stencil->pairs * dim, sizeof(double));
     solver_cost_array(arrays, group, "row sums", stencil->row_sum, stencil->count * dim, sizeof(double));
@@ -250,13 +253,13 @@ void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_c
 size_t solver_stencil_bytes(const struct solver_stencil *stencil)
 {
     size_t dim = (size_t)stencil->dim;
-    size_t per_pair = sizeof *stencil->graph.neighbour + (stencil->pair != NULL ? (dim + 1) * sizeof(double) : 0) +
-                      (stencil->narrow != NULL ? (dim + 1) * sizeof(float) : 0) +
-                      (stencil->transposed != NULL ? dim * sizeof(double) : 0) +
+    size_t per_record = (stencil->pair != NULL ? (dim + 1) * sizeof(double) : 0) +
+                        (stencil->narrow != NULL ? (dim + 1) * sizeof(float) : 0);
+    size_t per_pair = sizeof *stencil->graph.neighbour + (stencil->transposed != NULL ? dim * sizeof(double) : 0) +
                       (stencil->least_squares != NULL ? dim * sizeof(double) : 0);
-    size_t per_particle =
-        sizeof *stencil->graph.row + (dim + 1) * sizeof(double) + (stencil->own != NULL ? sizeof(double) : 0);
-    return stencil->pairs * per_pair + stencil->count * per_particle +
+    size_t per_particle = sizeof *stencil->graph.row + (stencil->shared != NULL ? sizeof *stencil->shared : 0) +
+                          (dim + 1) * sizeof(double) + (stencil->own != NULL ? sizeof(double) : 0);
+    return stencil->records * per_record + stencil->pairs * per_pair + stencil->count * per_particle +
            stencil->face_point_count * sizeof *stencil->face_point;
 }
 
@@ -272,9 +275,9 @@ struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil
     size_t dim = (size_t)stencil->dim;
     struct solver_stencil_residuals worst = {0};
     double largest = 0.0;
-    for (size_t ab = 0; ab < stencil->pairs; ab++) {
+    for (size_t record = 0; record < stencil->records; record++) {
         for (size_t axis = 0; axis < dim; axis++) {
-            largest = worse(largest, fabs(solver_stencil_C(stencil, ab)[axis]));
+            largest = worse(largest, fabs(solver_stencil_C(stencil, record)[axis]));
         }
     }
     size_t next_face = 0;
@@ -288,8 +291,9 @@ struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil
         }
         for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
             size_t b = stencil->graph.neighbour[ab];
-            const double *C = solver_stencil_C(stencil, ab);
-            const double *opposite = solver_stencil_C(stencil, solver_graph_find(&stencil->graph, b, a));
+            size_t ba = solver_graph_find(&stencil->graph, b, a);
+            const double *C = solver_stencil_C(stencil, ab + solver_stencil_shift(stencil, a));
+            const double *opposite = solver_stencil_C(stencil, ba + solver_stencil_shift(stencil, b));
             for (size_t axis = 0; axis < dim; axis++) {
                 worst.antisymmetry = worse(worst.antisymmetry, fabs(C[axis] + opposite[axis]) / largest);
                 closure[axis] += C[axis];

@@ -19,14 +19,17 @@ struct solver_stencil {
     size_t count, pairs;
     double spacing; /* [m] */
     struct solver_graph graph;
-    double *pair;          /* [pairs][dim + 1]: C_ab, then the face measure A_ab of the upwind dissipation,
-                                  max(0, (C_ab - C_ba)/2 . N_ab) unless the builder knows better; one record, so that a
-                                  pair is one place in memory */
-    float *narrow;         /* [pairs][dim + 1] the same in units of `unit`, once the stencil is narrowed; then pair, and
-                              row_sum / unit, are those of the rounded numbers */
-    double unit;           /* [m^(dim-1)]; 1 until then, and row_sum is in its units */
-    double *transposed;    /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
-    double *row_sum;       /* [count][dim] sum_b C_ab */
+    double *pair;       /* [records][dim + 1]: C_ab, then the face measure A_ab of the upwind dissipation,
+                               max(0, (C_ab - C_ba)/2 . N_ab) unless the builder knows better; one record, so that a
+                               pair is one place in memory */
+    size_t records;     /* pairs, unless rows are shared */
+    uint32_t *shared;   /* [count] record of the first pair of each row, where rows that are equal bit for bit are
+                           kept once; NULL: the pair's own number */
+    float *narrow;      /* [records][dim + 1] the same in units of `unit`, once the stencil is narrowed; then pair, and
+                           row_sum / unit, are those of the rounded numbers */
+    double unit;        /* [m^(dim-1)]; 1 until then, and row_sum is in its units */
+    double *transposed; /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
+    double *row_sum;    /* [count][dim] sum_b C_ab */
     double *least_squares; /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
                               (000_e9ec29e1bde7947d.txt eq. 37); NULL unless asked for */
     double *V;             /* [count] [m^dim] */
@@ -65,6 +68,9 @@ void solver_stencil_free(struct solver_stencil *stencil);
 bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const struct solver_cloud *cloud,
                                       struct solver_error *error);
 void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_cost_arrays *arrays);
+/* Keeps rows of pair vectors that are equal bit for bit once, where that saves three quarters of them, as on lattices
+ * beyond a few thousand particles; else it leaves all as it is. Before pairs are narrowed. */
+bool solver_stencil_share(struct solver_stencil *stencil, struct solver_error *error);
 /* Rounds pairs to single precision. Those that are opposite stay so, and sums of them are taken in double precision, so
  * that forces are equal and opposite to round-off of a double, and divergence and gradient each other's adjoint. Pairs
  * of sbp2, and of sbp4 away from the boundary, are whole multiples of the unit and stay as they are; elsewhere closure
@@ -87,7 +93,12 @@ struct solver_stencil_residuals solver_stencil_check(const struct solver_stencil
 /* For builders: reserves everything but the graph, which must be there; copies volumes and face points of the cloud. */
 bool solver_stencil_reserve(struct solver_stencil *stencil, const struct solver_cloud *cloud,
                             struct solver_error *error);
-/* C_ab of a pair. */
+/* Less the number of a pair of particle a's row, its record. */
+static inline size_t solver_stencil_shift(const struct solver_stencil *stencil, size_t a)
+{
+    return stencil->shared != NULL ? stencil->shared[a] - stencil->graph.row[a] : 0;
+}
+/* C_ab and then the face measure of a record: of a pair, for builders and wherever no rows are shared. */
 static inline double *solver_stencil_C(const struct solver_stencil *stencil, size_t pair)
 {
     return stencil->pair + pair * (size_t)(stencil->dim + 1);

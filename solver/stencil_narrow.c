@@ -14,23 +14,23 @@ bool solver_stencil_narrow(struct solver_stencil *stencil, struct solver_error *
                            "stencil: precision = \"mixed\" is for antisymmetric pair vectors; expected closed, sbp2 or "
                            "sbp4");
     }
-    if (!solver_alloc((void **)&stencil->narrow, stencil->pairs * (dim + 1), sizeof(float), "narrow pair vectors",
+    if (!solver_alloc((void **)&stencil->narrow, stencil->records * (dim + 1), sizeof(float), "narrow pair vectors",
                       error)) {
         return false;
     }
     stencil->unit = pow(stencil->spacing, (double)dim - 1.0) / 12.0; /* the denominator of sbp4 */
     memset(stencil->row_sum, 0, stencil->count * dim * sizeof *stencil->row_sum);
 #pragma omp parallel for schedule(static)
+    for (size_t i = 0; i < stencil->records * (dim + 1); i++) {
+        stencil->narrow[i] = (float)(stencil->pair[i] / stencil->unit);
+        stencil->pair[i] = (double)stencil->narrow[i] * stencil->unit;
+    }
+#pragma omp parallel for schedule(static)
     for (size_t a = 0; a < stencil->count; a++) {
+        size_t shift = solver_stencil_shift(stencil, a);
         for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
-            double *C = solver_stencil_C(stencil, ab);
-            for (size_t i = 0; i <= dim; i++) {
-                float rounded = (float)(C[i] / stencil->unit);
-                stencil->narrow[ab * (dim + 1) + i] = rounded;
-                C[i] = (double)rounded * stencil->unit;
-                if (i < dim) {
-                    stencil->row_sum[a * dim + i] += (double)rounded;
-                }
+            for (size_t i = 0; i < dim; i++) {
+                stencil->row_sum[a * dim + i] += (double)stencil->narrow[(ab + shift) * (dim + 1) + i];
             }
         }
     }

@@ -16,12 +16,12 @@ struct gradients {
 enum weighting { WIDE, NARROW, LEAST_SQUARES };
 
 static inline __attribute__((always_inline)) void add_difference(const struct solver_upwind *work,
-                                                                 enum weighting weighting, size_t ab, vec difference,
-                                                                 const stored *scalar, double scalar_a,
+                                                                 enum weighting weighting, size_t record,
+                                                                 vec difference, const stored *scalar, double scalar_a,
                                                                  struct gradients *G)
 {
-    struct weights w = weighting == LEAST_SQUARES ? load_weights(work->least_squares + ab * DIM, DIM)
-                                                  : load_pair(work, ab, weighting == NARROW).C;
+    struct weights w = weighting == LEAST_SQUARES ? load_weights(work->least_squares + record * DIM, DIM)
+                                                  : load_pair(work, record, weighting == NARROW).C;
     for (int I = 0; I < DIM; I++) {
         G->of_vector.column[I] += difference * w.each[I];
     }
@@ -41,20 +41,21 @@ static inline __attribute__((always_inline)) struct gradients sum_gradients(cons
     const uint32_t *neighbour = work->neighbour;
     vec f_a = load(field + a * LANES);
     double s_a = scalar != NULL ? (double)scalar[a] : 0.0;
+    size_t shift = weighting == LEAST_SQUARES ? 0 : pair_shift(work, a);
     size_t ab = work->row[a];
     size_t end = work->row[a + 1];
     for (; DIM > 1 && ab + 1 < end; ab += 2) {
         size_t b = neighbour[ab];
         size_t c = neighbour[ab + 1];
-        add_difference(work, weighting, ab, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
-                       &even);
-        add_difference(work, weighting, ab + 1, load(field + c * LANES) - f_a, scalar != NULL ? scalar + c : NULL, s_a,
-                       &odd);
+        add_difference(work, weighting, ab + shift, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL,
+                       s_a, &even);
+        add_difference(work, weighting, ab + 1 + shift, load(field + c * LANES) - f_a,
+                       scalar != NULL ? scalar + c : NULL, s_a, &odd);
     }
     for (; ab < end; ab++) {
         size_t b = neighbour[ab];
-        add_difference(work, weighting, ab, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
-                       &even);
+        add_difference(work, weighting, ab + shift, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL,
+                       s_a, &even);
     }
     for (int I = 0; I < DIM; I++) {
         even.of_vector.column[I] += odd.of_vector.column[I];
@@ -69,8 +70,9 @@ static inline void stress_gradient(const struct solver_upwind *work, size_t a, c
 {
     struct tensor G[DIM] = {{{{0}}}};
     struct tensor P_a = load_tensor(work->P + a * TENSOR);
+    size_t shift = weights == work->pair ? pair_shift(work, a) : 0;
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
-        const double *w = weights + ab * stride;
+        const double *w = weights + (ab + shift) * stride;
         const stored *P_b = work->P + (size_t)work->neighbour[ab] * TENSOR;
         for (int column = 0; column < DIM; column++) {
             vec difference = load(P_b + column * LANES) - P_a.column[column];
@@ -282,10 +284,11 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
     vec x_a = load(x + a * LANES);
     vec v_a = load(work->v + a * LANES);
     struct tensor slope_a = load_tensor(slope + a * TENSOR);
+    size_t shift = pair_shift(work, a);
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
         size_t b = work->neighbour[ab];
         fetch(work, slope, work->neighbour[ab + AHEAD < last ? ab + AHEAD : last]);
-        struct pair pair = load_pair(work, ab, terms.narrow);
+        struct pair pair = load_pair(work, ab + shift, terms.narrow);
         const stored *P_b = work->P + b * TENSOR;
         vec distance = placed ? load(work->X + b * LANES) - X_a : (vec){0};
         vec along = terms.frozen ? distance : load(x + b * LANES) - x_a;

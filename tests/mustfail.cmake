@@ -138,6 +138,7 @@ assay_unit_mutant(jst-fading solver_jst_plastic "each particle has the printed v
 assay_unit_mutant(wall-energy solver_balance "closes")
 assay_unit_mutant(balance-jacobian-sign solver_balance "closes")
 assay_unit_mutant(symmetry-tensor-sign solver_symmetry "as the whole")
+assay_unit_mutant(shared-by-length solver_stencil_share "a lattice keeps equal rows once")
 assay_unit_mutant(closed-one-pair solver_stencil "every builder in 2D")
 assay_unit_mutant(sbp4-boundary-row solver_affine "what claims affine motions keeps them, 1D")
 assay_unit_mutant(edge-traction solver_affine "what claims affine motions keeps them, 2D")

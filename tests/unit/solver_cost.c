@@ -239,6 +239,8 @@ static void memory_is_as_declared(void)
         expect_memory(smooth_motion, "dim=%d volume_flux=stress", dim);
         expect_memory(smooth_motion, "dim=%d stencil=closed", dim);
         expect_memory(smooth_motion, "dim=%d stencil=sbp4 n=8", dim);
+        expect_memory(smooth_motion, "dim=%d stencil=sbp2 n=9", dim); /* rows are kept once */
+        expect_memory(smooth_motion, "dim=%d stencil=sbp2 n=9 precision=mixed", dim);
         expect_memory(walled, "dim=%d", dim);
         expect_memory(touching, "dim=%d stencil=sph", dim);
         expect_memory(apart, "dim=%d stencil=sph", dim);

@@ -117,8 +117,8 @@ static size_t list_victims(const struct machine *machine, struct victim victim[V
     }
     if (machine->system != NULL) {
         const struct solver_stencil *stencil = machine->system->stencil;
-        victim[found++] = (struct victim){"pair vectors", stencil->pair, stencil->pairs, dim + 1, dim};
-        victim[found++] = (struct victim){"face measures", stencil->pair + dim, stencil->pairs, dim + 1, 1};
+        victim[found++] = (struct victim){"pair vectors", stencil->pair, stencil->records, dim + 1, dim};
+        victim[found++] = (struct victim){"face measures", stencil->pair + dim, stencil->records, dim + 1, 1};
         victim[found++] = (struct victim){"row sums", stencil->row_sum, machine->count, dim, dim};
         victim[found++] = (struct victim){"volumes", stencil->V, machine->count, 1, 1};
         if (stencil->own != NULL) {
