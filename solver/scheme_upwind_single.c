@@ -335,10 +335,28 @@ static bool evaluate(void *of, double t, double dt, struct solver_error *error)
     return true;
 }
 
+/* Identities that are added to what is stored without, and taken from it. */
+static void identity_terms(const struct system *system, double count, struct solver_cost_terms *list)
+{
+    const struct solver_upwind_single *work = &system->work;
+    double tensor = count * (double)tensor_width(system);
+    double J = work->J != NULL ? count : 0.0;
+    double opened = tensor + (work->H != NULL ? tensor : 0.0) + J; /* F, H and J in a window */
+    bool turns = !work->frozen;
+    double of_rates = (turns && work->evolves_J ? tensor : 0.0) + (turns && work->evolves_H ? tensor : 0.0);
+    double of_pairs =
+        turns ? (double)work->row[system->base.body->cloud->count] * (double)system->base.loops->lanes : 0.0;
+    bool own = work->cofactor != NULL && !work->evolves_H;
+    solver_cost_term(list, "identities left out in single precision", 0,
+                     opened + of_rates + of_pairs + (own ? tensor : 0.0));
+    solver_cost_once(list, "the same, once", opened * (turns ? 2.0 : 1.0)); /* whole, and how fast */
+}
+
 static void terms(const void *of, struct solver_cost_terms *list)
 {
     const struct system *system = of;
     size_t count = system->base.body->cloud->count;
+    identity_terms(system, (double)count, list);
     system->loops->gradient_terms(&system->work, count, list);
     system->loops->rate_terms(&system->work, count, list);
     system->loops->particle_terms(&system->work, count, list);

@@ -6,29 +6,26 @@
 static void update(float *restrict U, const float *restrict start, const float *restrict rate, float *restrict sum,
                    size_t count, const struct solver_stage *stage, double dt)
 {
-    double keep = stage->keep;
-    double step = dt * stage->rate;
-    double carried = dt * stage->sum;
     if (stage->time == 0.0 && sum == NULL) {
         for (size_t i = 0; i < count; i++) {
-            U[i] = (float)((double)start[i] + step * (double)rate[i]);
+            U[i] = (float)((double)start[i] + dt * stage->rate * (double)rate[i]);
         }
     } else if (stage->time == 0.0) {
         for (size_t i = 0; i < count; i++) {
-            U[i] = (float)((double)start[i] + step * (double)rate[i]);
+            U[i] = (float)((double)start[i] + dt * stage->rate * (double)rate[i]);
             sum[i] = (float)(stage->accumulate * (double)rate[i]);
         }
     } else if (sum == NULL) {
         for (size_t i = 0; i < count; i++) {
             double from = (double)start[i];
-            U[i] = (float)(from + keep * ((double)U[i] - from) + step * (double)rate[i]);
+            U[i] = (float)(from + stage->keep * ((double)U[i] - from) + dt * stage->rate * (double)rate[i]);
         }
     } else {
         for (size_t i = 0; i < count; i++) {
             double from = (double)start[i];
             double R = (double)rate[i];
             double S = (double)sum[i];
-            U[i] = (float)(from + keep * ((double)U[i] - from) + (step * R + carried * S));
+            U[i] = (float)(from + stage->keep * ((double)U[i] - from) + dt * (stage->rate * R + stage->sum * S));
             sum[i] = (float)(S + stage->accumulate * R);
         }
     }
