@@ -8,9 +8,9 @@
 /* Particles whose pairs are summed together. A row that ends before the longest goes on with its last pair, idle: with
  * weights of zero, which change no sum. */
 struct group {
-    size_t count;                /* of them; parts beyond repeat the last */
+    size_t count;                              /* of them; parts beyond repeat the last */
     size_t at[GROUP], row[GROUP], last[GROUP]; /* particle, its first and its last pair */
-    size_t shortest, longest;    /* row */
+    size_t shortest, longest;                  /* row */
 };
 
 /* The next particles from a on: as many as fit, up to one without pairs, or that alone. */
@@ -41,8 +41,7 @@ struct pairs {
 };
 
 static inline __attribute__((always_inline)) struct pairs pairs_of(const struct solver_upwind *work,
-                                                                   const struct group *group, size_t k,
- bool idle)
+                                                                   const struct group *group, size_t k, bool idle)
 {
     struct pairs pairs;
     for (int g = 0; g < GROUP; g++) {
@@ -90,9 +89,6 @@ static inline __attribute__((always_inline)) struct weights load_weights(const d
     typedef vec loose __attribute__((aligned(sizeof(double))));
     struct weights w;
     vec together[GROUP];
-    for (int I = 0; I < DIM; I++) {
-        w.each[I] = weight(from, I);
-    }
     for (int g = 0; g < GROUP; g++) {
         together[g] = (vec){0};
         for (int I = 0; I < DIM; I++) {
@@ -103,6 +99,9 @@ static inline __attribute__((always_inline)) struct weights load_weights(const d
         }
     }
     w.together = join(together);
+    for (int I = 0; I < DIM; I++) {
+        w.each[I] = GROUP > 1 ? spread(w.together, I) : weight(from, I);
+    }
     return w;
 }
 

@@ -1,5 +1,6 @@
 #include "solver/upwind.h"
 
+#include "solver/dim_fluxes.h"
 #include "solver/dim_pairs.h"
 #include "solver/dim_sums.h"
 #include "solver/dim_upwind_terms.h"
@@ -14,9 +15,8 @@ struct gradients {
 /* Which weights gradients are summed with. */
 enum weighting { WIDE, NARROW, LEAST_SQUARES };
 
-static inline __attribute__((always_inline)) struct weights load_weighting(const struct solver_upwind *work,
-                                                                           enum weighting weighting,
-                                                                           const struct pairs *pairs)
+static inline __attribute__((always_inline)) struct weights
+load_weighting(const struct solver_upwind *work, enum weighting weighting, const struct pairs *pairs)
 {
     if (weighting != LEAST_SQUARES) {
         return load_pair(work, pairs, weighting == NARROW).C;
@@ -26,11 +26,9 @@ static inline __attribute__((always_inline)) struct weights load_weighting(const
     return load_weights(from, DIM);
 }
 
-static inline __attribute__((always_inline)) void add_difference(const struct solver_upwind *work,
-                                                                 enum weighting weighting, const struct group *group,
-                                                                 size_t k, bool idle, const double *field, wide field_a,
-                                                                 const double *scalar, wide scalar_a,
-                                                                 struct gradients *G)
+static inline __attribute__((always_inline)) void
+add_difference(const struct solver_upwind *work, enum weighting weighting, const struct group *group, size_t k,
+               bool idle, const double *field, wide field_a, const double *scalar, wide scalar_a, struct gradients *G)
 {
     struct pairs pairs = pairs_of(work, group, k, idle);
     struct weights w = load_weighting(work, weighting, &pairs);
@@ -59,8 +57,11 @@ static inline __attribute__((always_inline)) struct gradients sum_gradients(cons
         add_difference(work, weighting, group, k, false, field, f_a, scalar, s_a, &even);
         add_difference(work, weighting, group, k + 1, false, field, f_a, scalar, s_a, &odd);
     }
-    for (; k < group->longest; k++) {
-        add_difference(work, weighting, group, k, true, field, f_a, scalar, s_a, k % 2 == 0 || DIM == 1 ? &even : &odd);
+    for (; k < group->longest; k += 2) {
+        add_difference(work, weighting, group, k, true, field, f_a, scalar, s_a, &even);
+        if (k + 1 < group->longest) {
+            add_difference(work, weighting, group, k + 1, true, field, f_a, scalar, s_a, DIM > 1 ? &odd : &even);
+        }
     }
     for (int I = 0; I < DIM; I++) {
         even.of_vector[I] += odd.of_vector[I];
@@ -109,7 +110,7 @@ static inline __attribute__((always_inline)) void gradients_with(const struct so
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
-        wide half_per_V = 0.5 * work->unit / gather_each(work->V, 1, group.at);
+        wide half_per_V = 0.5 * (work->unit / gather_each(work->V, 1, group.at));
         struct gradients G =
             sum_gradients(work, &group, work->v, pressure ? work->pressure : NULL, narrow ? NARROW : WIDE);
         for (int I = 0; I < DIM; I++) {
@@ -160,181 +161,21 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
     }
 }
 
-/* Impedances of a pair: z v jumps in the acoustic Riemann problem of eq. 27, 28, with 2 z_a z_b / (z_a + z_b) where
- * materials meet. */
-struct impedances {
-    wide p, s;
-};
-
-/* A constant of particles. */
-static inline __attribute__((always_inline)) wide constant(const struct solver_upwind *work, const double *of_first,
-                                                           const size_t at[GROUP])
-{
-    return gather_each(of_first, work->stride * (sizeof *work->constants / sizeof(double)), at);
-}
-
-static inline __attribute__((always_inline)) struct impedances impedances(const struct solver_upwind *work,
-                                                                          const size_t at[GROUP])
-{
-    return (struct impedances){.p = constant(work, &work->constants->zp, at),
-                               .s = constant(work, &work->constants->zs, at)};
-}
-
-static inline struct impedances meet(struct impedances a, struct impedances b)
-{
-    return (struct impedances){.p = 2.0 * a.p * b.p / (a.p + b.p), .s = 2.0 * a.s * b.s / (a.s + b.s)};
-}
-
-/* Of the particles of a group whose neighbour is of a material with the same volumetric stress; where materials meet
- * it has a jump of its own. */
-static inline wide where_alike(const struct solver_upwind *work, const struct group *group, const struct pairs *pairs,
-                               wide flux)
-{
-    vec part[GROUP];
-    take_apart(flux, part);
-    for (int g = 0; g < GROUP; g++) {
-        bool alike = work->constants[group->at[g]].kappa == work->constants[pairs->b[g]].kappa;
-        part[g] = alike ? part[g] : (vec){0};
-    }
-    return join(part);
-}
-
-/* Reconstructed jump of the stress times the pair's distance, (P+ - P-) d (eq. 27, 34). */
-static inline wide traction_jump(const struct solver_upwind *work, const size_t a[GROUP], const size_t b[GROUP],
-                                 wide distance, bool reconstruct)
-{
-    wide traction = {0};
-    wide half = 0.5 * distance;
-    for (int I = 0; I < DIM; I++) {
-        const double *P = work->P + I * LANES;
-        wide jump = gather(P, TENSOR, b) - gather(P, TENSOR, a);
-        for (int K = 0; reconstruct && K < DIM; K++) {
-            const double *slopes = work->P_gradient + K * TENSOR + I * LANES;
-            wide slope = gather(slopes, (size_t)DIM * TENSOR, a) + gather(slopes, (size_t)DIM * TENSOR, b);
-            jump -= spread(half, K) * slope;
-        }
-        traction += jump * spread(distance, I);
-    }
-    return traction;
-}
-
-/* What the scene asks for, as constants where the sums are called, so that each combination is a loop of its own. */
-struct terms {
-    bool frozen, reconstruct, transposed, volume, whole, composite, narrow;
-};
-
-/* n (n . H^Ave N): what becomes of the unit vector N, not normalised, as the pair's area. */
-static inline __attribute__((always_inline)) wide pair_area(const struct solver_upwind *work, const size_t a[GROUP],
-                                                            const size_t b[GROUP], wide distance)
-{
-    wide area = {0};
-    wide half = 0.5 * distance;
-    for (int I = 0; I < DIM; I++) {
-        const double *cofactor = work->cofactor + I * LANES;
-        area += (gather(cofactor, TENSOR, a) + gather(cofactor, TENSOR, b)) * spread(half, I);
-    }
-    return area;
-}
-
-/* Sums over the neighbours, before what is the same for all of them is multiplied in. Components are summed apart as
- * long as they may be: that is fewer shuffles, and no sum waits long for its last term. */
-struct pair_sums {
-    wide force[DIM]; /* sum_b P_b e_I D_I */
-    wide jumps;      /* sum_b A [v] */
-    wide normals;    /* sum_b A n (n . [v]) */
-    wide slopes;     /* sum_b A n^2 (slope of U' times N d), by components; n = n . H^Ave N here and below */
-    wide volume;     /* sum_b A n^2 [U'], not reconstructed, in every lane */
-    wide tractions;  /* sum_b A n (n . [P N]), by components */
-};
-
-static inline __attribute__((always_inline)) void add_volume_flux(const struct solver_upwind *work,
-                                                                  const struct group *group,
-                                                                  const struct pairs *pairs, struct terms terms,
-                                                                  wide distance, wide along, wide by_volume,
-                                                                  struct pair_sums *sums)
-{
-    if (terms.whole) {
-        sums->tractions +=
-            by_volume * (along * traction_jump(work, group->at, pairs->b, distance, terms.reconstruct));
-        return;
-    }
-    sums->volume += by_volume * (gather_each(work->pressure, 1, pairs->b) - gather_each(work->pressure, 1, group->at));
-    if (terms.reconstruct) {
-        const double *slopes = work->pressure_gradient;
-        wide slope = gather(slopes, LANES, group->at) + gather(slopes, LANES, pairs->b);
-        sums->slopes += by_volume * (slope * distance);
-    }
-}
-
-/* Upwind fluxes across a pair, twice: of momentum, A S (p+ - p-) (eq. 27, 28), from the jump of velocity with the
- * states reconstructed at mid-distance; n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) =
- * along (along . jump) / |along|^2. And of J (eq. 27, 28, 30, 33), times 2 z_p: A (n . (P+ - P-) N) (n . H^Ave N).
- * Eq. 33 as printed has the sign that would feed energy in; this is that of eq. 30. A N stands for C_ab, as in the flux
- * of p. By default only the volumetric part U'(J) H of the stress jumps: J is conjugate to it alone, so that without
- * reconstruction the flux cannot feed energy in, and its gradient is a vector instead of a third-order tensor. */
-static inline __attribute__((always_inline)) void add_fluxes(const struct solver_upwind *work,
-                                                             const struct group *group, const struct pairs *pairs,
-                                                             struct terms terms, wide jump, wide distance, wide along,
-                                                             wide face, struct impedances z, struct pair_sums *sums)
-{
-    wide normal;
-    wide square;
-    wide by_normal; /* A / |along|^2 */
-    wide by_volume; /* A n^2; frozen: n = N, H = 1 */
-    spread_dots(along, jump, along, along, &normal, &square);
-    if (terms.volume && (!terms.frozen || terms.whole)) {
-        wide area = terms.frozen ? distance : pair_area(work, group->at, pairs->b, distance);
-        wide turned;
-        wide reference;
-        spread_dots(along, area, distance, distance, &turned, &reference);
-        wide share = face / (square * reference);
-        by_normal = share * reference;
-        by_volume = terms.whole ? share * turned : share * turned * turned;
-    } else {
-        by_normal = face / square;
-        by_volume = face;
-    }
-    sums->jumps += (terms.composite ? z.s * face : face) * jump;
-    sums->normals += (terms.composite ? (z.p - z.s) * normal * by_normal : normal * by_normal) * along;
-    if (terms.volume) {
-        by_volume = terms.composite ? where_alike(work, group, pairs, by_volume) : by_volume;
-        add_volume_flux(work, group, pairs, terms, distance, along, by_volume, sums);
-    }
-}
-static inline __attribute__((always_inline)) void combine(const struct pair_sums *sums, struct terms terms,
-                                                          struct impedances z, struct sums of[GROUP])
-{
-    wide force = sums->force[0];
-    for (int I = 1; I < DIM; I++) {
-        force += sums->force[I];
-    }
-    wide dissipation =
-        terms.composite ? sums->jumps + sums->normals : z.s * sums->jumps + (z.p - z.s) * sums->normals;
-    wide by_component = terms.whole ? sums->tractions : -0.5 * sums->slopes;
-    vec forces[GROUP];
-    vec dissipations[GROUP];
-    take_apart(force, forces);
-    take_apart(dissipation, dissipations);
-    for (int g = 0; g < GROUP; g++) {
-        of[g] = (struct sums){.force = forces[g], .dissipation = dissipations[g], .volume = sums->volume[g * LANES]};
-        for (int I = 0; terms.volume && I < DIM; I++) {
-            of[g].volume += by_component[g * LANES + I];
-        }
-    }
-}
-
-/* Neighbours lie all over memory, and the work on a pair is shorter than the way there: what a neighbour brings is
- * asked for so many pairs ahead. */
+/* Neighbours lie all over memory, and the work on a pair is shorter than the way there: where that is beyond the
+ * processor's own cache, what a neighbour brings is asked for so many pairs ahead; `last` is the pair up to which. */
 enum { AHEAD = 16, LINE = 64 / sizeof(double) };
 
-__attribute__((unused)) static inline void fetch(const struct solver_upwind *work, const double *slope, size_t b)
+static inline void fetch(const struct solver_upwind *work, const double *slope, const struct group *group, size_t last)
 {
-    for (int i = 0; i < TENSOR; i += LINE) {
-        __builtin_prefetch(work->P + b * TENSOR + i);
-        __builtin_prefetch(slope + b * TENSOR + i);
+    for (size_t ab = group->row[0] + AHEAD; ab <= group->last[GROUP - 1] + AHEAD && ab <= last; ab++) {
+        size_t b = work->neighbour[ab];
+        for (int i = 0; i < TENSOR; i += LINE) {
+            __builtin_prefetch(work->P + b * TENSOR + i);
+            __builtin_prefetch(slope + b * TENSOR + i);
+        }
+        __builtin_prefetch(work->v + b * LANES);
+        __builtin_prefetch(work->X + b * LANES);
     }
-    __builtin_prefetch(work->v + b * LANES);
-    __builtin_prefetch(work->X + b * LANES);
 }
 
 /* What the pairs of a group have in common. */
@@ -343,9 +184,8 @@ struct side {
     struct impedances z;
 };
 
-static inline __attribute__((always_inline)) struct side own_side(const struct solver_upwind *work,
-                                                                  const struct group *group, const double *x,
-                                                                  const double *slope)
+static inline __attribute__((always_inline)) struct side
+own_side(const struct solver_upwind *work, const struct group *group, const double *x, const double *slope)
 {
     struct side side = {.x = gather(x, LANES, group->at), .v = gather(work->v, LANES, group->at)};
     side.X = work->X != NULL ? gather(work->X, LANES, group->at) : side.x;
@@ -356,9 +196,9 @@ static inline __attribute__((always_inline)) struct side own_side(const struct s
     return side;
 }
 
-static inline __attribute__((always_inline)) void add_pairs(const struct solver_upwind *work,
-                                                            const struct group *group, const struct pairs *pairs,
-                                                            struct terms terms, const struct side *own, const double *x,
+static inline __attribute__((always_inline)) void add_pairs(const struct solver_upwind *work, const struct group *group,
+                                                            const struct pairs *pairs, struct terms terms,
+                                                            const struct side *own, const double *x,
                                                             const double *slope, struct pair_sums *sums)
 {
     struct pair pair = load_pair(work, pairs, terms.narrow);
@@ -383,14 +223,16 @@ static inline __attribute__((always_inline)) void add_pairs(const struct solver_
 }
 
 /* Sums of the pairs of each particle of a group. */
-static inline __attribute__((always_inline)) void sum_pairs(const struct solver_upwind *work,
-                                                            const struct group *group, struct terms terms,
-                                                            struct sums of[GROUP])
+static inline __attribute__((always_inline)) void sum_pairs(const struct solver_upwind *work, const struct group *group,
+                                                            size_t last, struct terms terms, struct sums of[GROUP])
 {
     struct pair_sums sums = {.volume = {0}};
     const double *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
     const double *x = terms.frozen ? work->X : work->x;
     struct side own = own_side(work, group, x, slope);
+    if (work->far) {
+        fetch(work, slope, group, last);
+    }
     size_t k = 0;
     for (; k < group->shortest; k++) {
         struct pairs pairs = pairs_of(work, group, k, false);
@@ -406,11 +248,12 @@ static inline __attribute__((always_inline)) void sum_pairs(const struct solver_
 static inline __attribute__((always_inline)) void rates_with(const struct solver_upwind *work, size_t begin, size_t end,
                                                              struct terms terms)
 {
+    size_t last = work->row[end] > 0 ? work->row[end] - 1 : 0;
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
         struct sums sums[GROUP];
-        sum_pairs(work, &group, terms, sums);
+        sum_pairs(work, &group, last, terms, sums);
         for (int g = 0; g < GROUP; g++) {
             finish(work, group.at[g], sums[g]);
         }
