@@ -101,44 +101,6 @@ static inline vec splat(double a)
 #endif
 }
 
-/* Component I, a constant, in every lane. */
-static inline vec spread(vec a, int I)
-{
-#if DIM == 3
-    return I == 0   ? __builtin_shufflevector(a, a, 0, 0, 0, 0)
-           : I == 1 ? __builtin_shufflevector(a, a, 1, 1, 1, 1)
-           : I == 2 ? __builtin_shufflevector(a, a, 2, 2, 2, 2)
-                    : __builtin_shufflevector(a, a, 3, 3, 3, 3);
-#elif DIM == 2
-    return I == 0 ? __builtin_shufflevector(a, a, 0, 0) : __builtin_shufflevector(a, a, 1, 1);
-#else
-    (void)I;
-    return a;
-#endif
-}
-
-/* a . b and c . d, each in every lane: half the shuffles of two dots. Lanes beyond DIM are zero. */
-static inline void spread_dots(vec a, vec b, vec c, vec d, vec *ab, vec *cd)
-{
-#if DIM == 3
-    vec first = a * b;
-    vec second = c * d;
-    vec pairs = __builtin_shufflevector(first, second, 0, 4, 2, 6) + __builtin_shufflevector(first, second, 1, 5, 3, 7);
-    vec both = pairs + __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1);
-    *ab = __builtin_shufflevector(both, both, 0, 0, 2, 2);
-    *cd = __builtin_shufflevector(both, both, 1, 1, 3, 3);
-#elif DIM == 2
-    vec first = a * b;
-    vec second = c * d;
-    vec both = __builtin_shufflevector(first, second, 0, 2) + __builtin_shufflevector(first, second, 1, 3);
-    *ab = __builtin_shufflevector(both, both, 0, 0);
-    *cd = __builtin_shufflevector(both, both, 1, 1);
-#else
-    *ab = a * b;
-    *cd = c * d;
-#endif
-}
-
 /* A tensor by columns. */
 struct tensor {
     vec column[DIM];

@@ -266,6 +266,8 @@ bool solver_upwind_start(void *of, struct solver_error *error)
             }
         }
     }
+    size_t of_pairs = (2 * dim + 2) * lanes * sizeof(double); /* P, slope of v, v and X */
+    work->far = cloud->count * of_pairs > (size_t)1 << 20;
     system->loops->measures(work->frozen, 0, cloud->count, work->F, work->H, work->J);
     if (system->pressure != NULL) {
         solver_pressure_start(system->pressure);

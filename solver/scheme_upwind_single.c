@@ -306,6 +306,9 @@ static bool start(void *of, struct solver_error *error)
             return false;
         }
     }
+    size_t of_pairs =
+        (2 * dim + 2 + (system->work.frozen ? 0 : 1)) * lanes * sizeof(float); /* P, slope of v, v, X, x */
+    system->work.far = cloud->count * of_pairs > (size_t)1 << 20;
     bind(system);
     start_measures(system);
     solver_stencil_narrow_only(system->base.stencil);
