@@ -38,7 +38,8 @@ static bool keep_fields(struct solver_keeper *keeper, struct solver_run *run, st
         const struct solver_field *field = &state->field[i];
         char name[sizeof keeper->head->name];
         (void)snprintf(name, sizeof name, "field %s", field->name);
-        if (!solver_keep(keeper, name, *field->value, field->width * sizeof(double), state->count, error)) {
+        void *value = state->in_single ? (void *)*field->single : (void *)*field->value;
+        if (!solver_keep(keeper, name, value, field->width * solver_state_bytes(state), state->count, error)) {
             return false;
         }
     }

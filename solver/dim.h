@@ -8,6 +8,10 @@
 
 #include <stddef.h>
 
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
 #define SOLVER_DIM_PASTE(name, dim, path)  name##_##dim##d_##path
 #define SOLVER_DIM_EXPAND(name, dim, path) SOLVER_DIM_PASTE(name, dim, path)
 /* DIM_NAME(f) is f_3d_avx2 for the dimension and path (path.h) that are compiled. */
@@ -26,15 +30,55 @@ typedef double vec __attribute__((vector_size(1 * sizeof(double))));
 #error "DIM must be 1, 2 or 3"
 #endif
 
-static inline vec load(const double *from)
+/* To single precision and back. GCC 12 makes __builtin_convertvector of four numbers two conversions of two. */
+typedef float narrow_vec __attribute__((vector_size(LANES * sizeof(float))));
+
+static inline vec widen_vec(narrow_vec a)
+{
+#if DIM == 3 && defined __AVX__
+    return _mm256_cvtps_pd(a);
+#else
+    return __builtin_convertvector(a, vec);
+#endif
+}
+
+static inline narrow_vec narrow_down(vec a)
+{
+#if DIM == 3 && defined __AVX__
+    return _mm256_cvtpd_ps(a);
+#else
+    return __builtin_convertvector(a, narrow_vec);
+#endif
+}
+
+/* Fields are stored in double precision, or in single, and computed with in double. */
+#ifdef SINGLE
+enum { IN_SINGLE = 1 };
+typedef float stored;
+
+static inline vec load(const stored *from)
+{
+    return widen_vec(*(const narrow_vec *)from);
+}
+
+static inline void store(stored *to, vec value)
+{
+    *(narrow_vec *)to = narrow_down(value);
+}
+#else
+enum { IN_SINGLE = 0 };
+typedef double stored;
+
+static inline vec load(const stored *from)
 {
     return *(const vec *)from;
 }
 
-static inline void store(double *to, vec value)
+static inline void store(stored *to, vec value)
 {
     *(vec *)to = value;
 }
+#endif
 
 static inline double dot(vec a, vec b)
 {
@@ -57,50 +101,12 @@ static inline vec splat(double a)
 #endif
 }
 
-/* Component I, a constant, in every lane. */
-static inline vec spread(vec a, int I)
-{
-#if DIM == 3
-    return I == 0   ? __builtin_shufflevector(a, a, 0, 0, 0, 0)
-           : I == 1 ? __builtin_shufflevector(a, a, 1, 1, 1, 1)
-           : I == 2 ? __builtin_shufflevector(a, a, 2, 2, 2, 2)
-                    : __builtin_shufflevector(a, a, 3, 3, 3, 3);
-#elif DIM == 2
-    return I == 0 ? __builtin_shufflevector(a, a, 0, 0) : __builtin_shufflevector(a, a, 1, 1);
-#else
-    (void)I;
-    return a;
-#endif
-}
-
-/* a . b and c . d, each in every lane: half the shuffles of two dots. Lanes beyond DIM are zero. */
-static inline void spread_dots(vec a, vec b, vec c, vec d, vec *ab, vec *cd)
-{
-#if DIM == 3
-    vec first = a * b;
-    vec second = c * d;
-    vec pairs = __builtin_shufflevector(first, second, 0, 4, 2, 6) + __builtin_shufflevector(first, second, 1, 5, 3, 7);
-    vec both = pairs + __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1);
-    *ab = __builtin_shufflevector(both, both, 0, 0, 2, 2);
-    *cd = __builtin_shufflevector(both, both, 1, 1, 3, 3);
-#elif DIM == 2
-    vec first = a * b;
-    vec second = c * d;
-    vec both = __builtin_shufflevector(first, second, 0, 2) + __builtin_shufflevector(first, second, 1, 3);
-    *ab = __builtin_shufflevector(both, both, 0, 0);
-    *cd = __builtin_shufflevector(both, both, 1, 1);
-#else
-    *ab = a * b;
-    *cd = c * d;
-#endif
-}
-
 /* A tensor by columns. */
 struct tensor {
     vec column[DIM];
 };
 
-static inline struct tensor load_tensor(const double *from)
+static inline struct tensor load_tensor(const stored *from)
 {
     struct tensor T;
     for (int I = 0; I < DIM; I++) {
@@ -109,7 +115,7 @@ static inline struct tensor load_tensor(const double *from)
     return T;
 }
 
-static inline void store_tensor(double *to, struct tensor T)
+static inline void store_tensor(stored *to, struct tensor T)
 {
     for (int I = 0; I < DIM; I++) {
         store(to + I * LANES, T.column[I]);
@@ -122,6 +128,19 @@ static inline struct tensor identity(void)
     for (int I = 0; I < DIM; I++) {
         T.column[I][I] = 1.0;
     }
+    return T;
+}
+
+/* F and H, which lack the identity in single precision. */
+static inline struct tensor load_measure(const stored *from)
+{
+    struct tensor T = load_tensor(from);
+#ifdef SINGLE
+    struct tensor one = identity();
+    for (int I = 0; I < DIM; I++) {
+        T.column[I] += one.column[I];
+    }
+#endif
     return T;
 }
 

@@ -20,7 +20,7 @@ struct sums {
     double volume;   /* 2 z_p V_a D(J_a) (eq. 30) */
 };
 
-static inline void finish(const struct solver_upwind *work, size_t a, struct sums sums)
+static inline __attribute__((always_inline)) void finish(const struct solver_upwind *work, size_t a, struct sums sums)
 {
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
     double per_V = work->unit / work->V[a];
@@ -34,11 +34,11 @@ static inline void finish(const struct solver_upwind *work, size_t a, struct sum
     }
     struct tensor G = load_tensor(work->F_rate + a * TENSOR);
     if (work->evolves_J) {
-        double compression = work->frozen ? trace(G) : contract(load_tensor(work->cofactor + a * TENSOR), G);
-        work->J_rate[a] = compression + sums.volume * per_V / (2.0 * of_a->zp);
+        double compression = work->frozen ? trace(G) : contract(load_measure(work->cofactor + a * TENSOR), G);
+        work->J_rate[a] = (stored)(compression + sums.volume * per_V / (2.0 * of_a->zp));
     }
     if (work->evolves_H) {
-        struct tensor F = work->frozen ? identity() : load_tensor(work->F + a * TENSOR);
+        struct tensor F = work->frozen ? identity() : load_measure(work->F + a * TENSOR);
         store_tensor(work->H_rate + a * TENSOR, tensor_cross(F, G));
     }
 }

@@ -204,13 +204,11 @@ static bool prescribe(const struct solver_constraint *constraint, const struct s
     return true;
 }
 
-bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t, size_t lanes,
-                            double *v, struct solver_error *error)
+bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t,
+                            struct solver_vectors v, struct solver_error *error)
 {
     for (size_t c = 0; c < faces->constraint_count; c++) {
         const struct solver_constraint *constraint = &faces->constraint[c];
-        double *at = v + constraint->particle * lanes;
-        const double *of_image = v + constraint->image * lanes;
         double velocity[3] = {0};
         double image_velocity[3] = {0};
         bool mirrored = constraint->image != constraint->particle;
@@ -221,8 +219,10 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
         for (size_t i = 0; i < (size_t)faces->dim; i++) {
             const struct solver_held *axis = &constraint->axis[i];
             bool held = solver_held_at(axis, t);
-            double free_part = mirrored ? constraint->parity * (of_image[i] - image_velocity[i]) : 0.0;
-            at[i] = free_part + (held ? 0.0 : at[i]) + velocity[i];
+            double of_image = solver_vectors_get(&v, constraint->image, i);
+            double own = solver_vectors_get(&v, constraint->particle, i);
+            double free_part = mirrored ? constraint->parity * (of_image - image_velocity[i]) : 0.0;
+            solver_vectors_set(&v, constraint->particle, i, free_part + (held ? 0.0 : own) + velocity[i]);
         }
     }
     return true;
@@ -257,9 +257,15 @@ static bool ask_body_force(struct solver_faces *faces, const struct solver_body 
     return good;
 }
 
+/* Adds to an acceleration. */
+static void accelerate(const struct solver_vectors *v_rate, size_t a, size_t axis, double by)
+{
+    solver_vectors_set(v_rate, a, axis, solver_vectors_get(v_rate, a, axis) + by);
+}
+
 static bool add_body_force(struct solver_faces *faces, const struct solver_body *body,
-                           const struct solver_geometry *geometry, double t, size_t lanes, const double *v,
-                           double *v_rate, double *power, struct solver_error *error)
+                           const struct solver_geometry *geometry, double t, const struct solver_vectors *v,
+                           const struct solver_vectors *v_rate, double *power, struct solver_error *error)
 {
     size_t dim = (size_t)faces->dim;
     if (!ask_body_force(faces, body, t, error)) {
@@ -268,16 +274,16 @@ static bool add_body_force(struct solver_faces *faces, const struct solver_body 
     for (size_t a = 0; a < solver_cloud_driven(body->cloud); a++) {
         const double *force = faces->force + a * dim;
         for (size_t axis = 0; axis < dim; axis++) {
-            v_rate[a * lanes + axis] += force[axis] / body->constants[a * body->stride].rho;
-            *power += geometry->V[a] * force[axis] * v[a * lanes + axis];
+            accelerate(v_rate, a, axis, force[axis] / body->constants[a * body->stride].rho);
+            *power += geometry->V[a] * force[axis] * solver_vectors_get(v, a, axis);
         }
     }
     return true;
 }
 
 bool solver_faces_load(struct solver_faces *faces, const struct solver_body *body,
-                       const struct solver_geometry *geometry, double t, size_t lanes, const double *v, double *v_rate,
-                       double *power, struct solver_error *error)
+                       const struct solver_geometry *geometry, double t, struct solver_vectors v,
+                       struct solver_vectors v_rate, double *power, struct solver_error *error)
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_cloud *cloud = body->cloud;
@@ -301,11 +307,11 @@ bool solver_faces_load(struct solver_faces *faces, const struct solver_body *bod
         }
         area = sqrt(area);
         for (size_t axis = 0; axis < dim; axis++) {
-            v_rate[a * lanes + axis] += area * value[axis] / (V[a] * constants[a * stride].rho);
-            *power += area * value[axis] * v[a * lanes + axis];
+            accelerate(&v_rate, a, axis, area * value[axis] / (V[a] * constants[a * stride].rho));
+            *power += area * value[axis] * solver_vectors_get(&v, a, axis);
         }
     }
-    return faces->force == NULL || add_body_force(faces, body, geometry, t, lanes, v, v_rate, power, error);
+    return faces->force == NULL || add_body_force(faces, body, geometry, t, &v, &v_rate, power, error);
 }
 
 void solver_faces_arrays(const struct solver_faces *faces, const struct solver_body *body,

@@ -47,13 +47,13 @@ void solver_faces_arrays(const struct solver_faces *faces, const struct solver_b
 void solver_faces_terms(const struct solver_faces *faces, const struct solver_body *body,
                         struct solver_cost_terms *terms);
 
-/* Enforces the constraints on v, padded vectors with the given number of lanes, at time t. */
-bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t, size_t lanes,
-                            double *v, struct solver_error *error);
+/* Enforces the constraints on v at time t. */
+bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t,
+                            struct solver_vectors v, struct solver_error *error);
 /* Adds tractions and body forces at time t, per unit of reference area and volume, to v_rate; *power [W] becomes their
  * power at velocities v. */
 bool solver_faces_load(struct solver_faces *faces, const struct solver_body *body,
-                       const struct solver_geometry *geometry, double t, size_t lanes, const double *v, double *v_rate,
-                       double *power, struct solver_error *error);
+                       const struct solver_geometry *geometry, double t, struct solver_vectors v,
+                       struct solver_vectors v_rate, double *power, struct solver_error *error);
 
 #endif

@@ -304,7 +304,7 @@ bool solver_pressure_correct(struct solver_pressure *of, const struct solver_sta
     of->tau = integrator->stage[stage].rate * dt;
     of->step = dt;
     free_axes(of, t);
-    set_out(of, state->rate + (of->work->J - state->U));
+    set_out(of, of->work->J_rate);
     bool solved =
         poisson ? solver_pressure_poisson(of, increment, error) : solver_pressure_pseudo_time(of, increment, error);
     if (!solved) {

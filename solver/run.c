@@ -76,7 +76,7 @@ static bool start_motion(struct solver_run *run, struct solver_error *error)
 {
     const struct solver_scene *scene = run->scene;
     size_t dim = (size_t)scene->dim;
-    size_t lanes = run->state.lanes;
+    struct solver_vectors v = solver_state_v(&run->state);
     for (size_t a = 0; a < solver_cloud_driven(run->cloud); a++) {
         double X[3] = {0};
         double value[3] = {0};
@@ -86,7 +86,7 @@ static bool start_motion(struct solver_run *run, struct solver_error *error)
             return false;
         }
         for (size_t i = 0; i < dim; i++) {
-            run->state.x[a * lanes + i] = X[i] + value[i];
+            solver_state_place(&run->state, a, i, X[i], value[i]);
             value[i] = 0.0;
         }
         if (solver_scene_has(scene, SOLVER_INITIAL_VELOCITY) &&
@@ -94,7 +94,7 @@ static bool start_motion(struct solver_run *run, struct solver_error *error)
             return false;
         }
         for (size_t i = 0; i < dim; i++) {
-            run->state.v[a * lanes + i] = value[i];
+            solver_vectors_set(&v, a, i, value[i]);
         }
     }
     if (run->cloud->symmetry != NULL) {
@@ -107,7 +107,7 @@ static bool initial_state(struct solver_run *run, struct solver_error *error)
 {
     struct solver_state *state = &run->state;
     if (!start_motion(run, error) || !run->scheme->start(run->system, error) ||
-        !solver_faces_constrain(&run->faces, &run->body, 0.0, state->lanes, state->v, error)) {
+        !solver_faces_constrain(&run->faces, &run->body, 0.0, solver_state_v(state), error)) {
         return false;
     }
     solver_run_refresh(run);
@@ -137,8 +137,12 @@ static bool build(struct solver_run *run, struct solver_error *error)
 {
     const struct solver_scene *scene = run->scene;
     struct solver_field table[SOLVER_STATE_FIELDS];
+    bool single = strcmp(scene->precision, "single") == 0;
     run->integrator = solver_integrator_find(scene->integrator);
     run->scheme = solver_scheme_find(scene->scheme);
+    if (single && run->scheme != NULL) {
+        run->scheme = run->scheme->single;
+    }
     if (run->integrator == NULL || run->scheme == NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: no integrator \"%s\" or scheme \"%s\"", scene->path,
                            scene->integrator, scene->scheme);
@@ -178,7 +182,7 @@ static bool build(struct solver_run *run, struct solver_error *error)
         !solver_contact_create(&run->body, geometry.V, &run->contact, error) ||
         !solver_wall_create(&run->body, &geometry, &run->faces, &run->wall, error) ||
         !solver_projection_create(&run->body, &run->faces, geometry.V, &run->projection, error) ||
-        !solver_state_create(&run->state, run->cloud->count, scene->dim, run->integrator, table, rows, error)) {
+        !solver_state_create(&run->state, run->cloud->count, scene->dim, single, run->integrator, table, rows, error)) {
         return false;
     }
     run->projection.held = run->projection.held || run->wall.count > 0;
@@ -243,12 +247,14 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
     double passes = geometry.passes;
     double state = solver_state_bytes_per_particle(&run->state, true);
     double fields = solver_state_bytes_per_particle(&run->state, false);
-    double evolved = 8.0 * (double)run->state.evolved / count;
+    double number = (double)solver_state_bytes(&run->state);
+    double evolved = number * (double)run->state.evolved / count;
+    double rates = number * (double)run->state.rates / count;
     double composite = (double)(run->body.stride * sizeof *run->constants);
     double bytes = geometry.bytes / count;
-    /* per stage: the geometry in each pass; fields read by each, rates written; in the update state, start and rate
-     * read, state and other fields written. The first stage writes the start instead of reading it. */
-    double stage = passes * bytes + (passes + 1.0) * fields + 4.0 * evolved;
+    /* per stage: the geometry in each pass; fields read by each, rates written; in the update state, start and rates
+     * read, state and other fields written. The first stage reads no state but that at the start. */
+    double stage = passes * bytes + (passes + 1.0) * fields + 2.0 * evolved + 2.0 * rates;
     double mass = 0.0;
     for (size_t a = 0; a < run->cloud->count; a++) {
         mass += geometry.V[a] * solver_run_density(run, a);
@@ -264,7 +270,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .seconds = run->seconds,
         .bytes_per_particle = state + bytes + composite,
         .state_bytes = fields,
-        .step_traffic = run->integrator->stages * stage,
+        .step_traffic = run->integrator->stages * stage - evolved,
         .stencil_residual = geometry.residual,
         .threads = run->threads,
     };

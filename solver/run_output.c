@@ -61,10 +61,11 @@ static void invariants(const double *sigma, double *mean, double *von_mises)
 static void write_motion(const struct solver_run *run, const struct arrays *at, size_t a)
 {
     const struct solver_state *state = &run->state;
+    struct solver_vectors v = solver_state_v(state);
     size_t dim = (size_t)run->cloud->dim;
     for (size_t i = 0; i < dim; i++) {
-        double velocity = state->v[a * state->lanes + i];
-        at->u[a * dim + i] = state->x[a * state->lanes + i] - run->cloud->X[a * dim + i];
+        double velocity = solver_vectors_get(&v, a, i);
+        at->u[a * dim + i] = solver_state_u(state, a, i, run->cloud->X[a * dim + i]);
         at->v[a * dim + i] = velocity;
         at->p[a * dim + i] = solver_run_density(run, a) * velocity;
     }
@@ -144,14 +145,15 @@ static void note_volumes(const struct solver_run *run, struct solver_totals *tot
 static void add_particle(const struct solver_run *run, size_t a, double V, struct solver_totals *totals)
 {
     const struct solver_state *state = &run->state;
+    struct solver_vectors v = solver_state_v(state);
     size_t dim = (size_t)run->cloud->dim;
     double rho = solver_run_density(run, a);
     double p[3] = {0};
     double x[3] = {0};
     for (size_t i = 0; i < dim; i++) {
-        p[i] = rho * state->v[a * state->lanes + i];
+        p[i] = rho * solver_vectors_get(&v, a, i);
+        x[i] = solver_state_x(state, a, i, run->cloud->X[a * dim + i]);
     }
-    memcpy(x, state->x + a * state->lanes, dim * sizeof *x);
     for (size_t i = 0; i < 3; i++) {
         size_t j = (i + 1) % 3;
         size_t k = (i + 2) % 3;
@@ -169,6 +171,7 @@ static void add_particle(const struct solver_run *run, size_t a, double V, struc
 static void note_bodies(const struct solver_run *run, const double *V, struct solver_history *history)
 {
     size_t dim = (size_t)run->cloud->dim;
+    struct solver_vectors v = solver_state_v(&run->state);
     double mass[SOLVER_BODIES] = {0};
     double momentum[SOLVER_BODIES][3] = {{0}};
     for (size_t a = 0; a < run->shown.count; a++) {
@@ -176,7 +179,7 @@ static void note_bodies(const struct solver_run *run, const double *V, struct so
         double m = V[a] * solver_run_density(run, a);
         mass[body] += m;
         for (size_t i = 0; i < dim; i++) {
-            momentum[body][i] += m * run->state.v[a * run->state.lanes + i];
+            momentum[body][i] += m * solver_vectors_get(&v, a, i);
         }
     }
     for (size_t body = 0; body < history->body_count; body++) {
@@ -246,7 +249,6 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
         return false;
     }
     size_t dim = (size_t)run->cloud->dim;
-    size_t lanes = run->state.lanes;
     const double *V = run->scheme->geometry(run->system).V;
     struct solver_totals totals = {.time = run->time, .external = run->external, .numerical = run->numerical};
     totals.impact = run->scene->balance ? run->wall.taken : 0.0;
@@ -261,9 +263,10 @@ bool solver_run_note(struct solver_run *run, struct solver_error *error)
         size_t a = run->probe[i];
         double *u = history->probe_u + (history->count * history->probe_count + i) * 3;
         double *v = history->probe_v + (history->count * history->probe_count + i) * 3;
+        struct solver_vectors velocity = solver_state_v(&run->state);
         for (size_t axis = 0; axis < 3; axis++) {
-            u[axis] = axis < dim ? run->state.x[a * lanes + axis] - run->cloud->X[a * dim + axis] : 0.0;
-            v[axis] = axis < dim ? run->state.v[a * lanes + axis] : 0.0;
+            u[axis] = axis < dim ? solver_state_u(&run->state, a, axis, run->cloud->X[a * dim + axis]) : 0.0;
+            v[axis] = axis < dim ? solver_vectors_get(&velocity, a, axis) : 0.0;
         }
     }
     note_bodies(run, V, history);

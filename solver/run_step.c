@@ -17,15 +17,14 @@ double solver_run_clock(void)
 
 static bool is_finite(const struct solver_run *run, size_t a)
 {
-    size_t lanes = run->state.lanes;
+    struct solver_vectors v = solver_state_v(&run->state);
     double square = 0.0; /* as the loops do: what overflows when squared has grown beyond all bounds */
     for (size_t i = 0; i < (size_t)run->cloud->dim; i++) {
-        square += run->state.v[a * lanes + i] * run->state.v[a * lanes + i];
+        square += solver_vectors_get(&v, a, i) * solver_vectors_get(&v, a, i);
     }
     return isfinite(square);
 }
 
-/* Fails with SOLVER_BROKE_DOWN if any particle's state is broken. */
 bool solver_run_check(struct solver_run *run, struct solver_error *error)
 {
     size_t count = run->cloud->count;
@@ -60,43 +59,59 @@ static bool evaluate(struct solver_run *run, int s, double dt, double *power, st
         solver_projection_note(&run->projection, state, stage);
     }
     struct solver_geometry geometry = run->scheme->geometry(run->system);
-    return solver_faces_load(&run->faces, &run->body, &geometry, t, state->lanes, state->v, state->v_rate, power,
-                             error) &&
+    return solver_faces_load(&run->faces, &run->body, &geometry, t, solver_state_v(state), solver_state_v_rate(state),
+                             power, error) &&
            solver_contact_act(&run->contact, state->x, state->v, state->lanes, t, dt, state->v_rate, error) &&
            (!run->projection.on ||
             solver_projection_act(&run->projection, state, stage, s + 1 == run->integrator->stages, dt, error));
 }
 
-/* One stage's update of the block's entries [first, last). The first stage of every integrator sets out from the state
- * itself, which it keeps as the start of the step. */
-static void update_slice(const struct solver_state *state, const struct solver_stage *stage, double dt, size_t first,
-                         size_t last)
+/* One stage's update of `count` numbers. The first stage of every integrator sets out from the start of the step
+ * itself.
+ */
+static void update_numbers(double *restrict U, const double *restrict start, const double *restrict rate,
+                           double *restrict sum, size_t count, const struct solver_stage *stage, double dt)
 {
-    double *restrict U = state->U;
-    double *restrict start = state->start;
-    const double *restrict rate = state->rate;
-    double *restrict sum = state->sum;
     bool begins = stage->time == 0.0;
     if (begins && sum == NULL) {
-        for (size_t i = first; i < last; i++) {
-            start[i] = U[i];
-            U[i] += dt * stage->rate * rate[i];
+        for (size_t i = 0; i < count; i++) {
+            U[i] = start[i] + dt * stage->rate * rate[i];
         }
     } else if (begins) {
-        for (size_t i = first; i < last; i++) {
-            start[i] = U[i];
-            U[i] += dt * stage->rate * rate[i];
+        for (size_t i = 0; i < count; i++) {
+            U[i] = start[i] + dt * stage->rate * rate[i];
             sum[i] = stage->accumulate * rate[i];
         }
     } else if (sum == NULL) {
-        for (size_t i = first; i < last; i++) {
+        for (size_t i = 0; i < count; i++) {
             U[i] = start[i] + stage->keep * (U[i] - start[i]) + dt * stage->rate * rate[i];
         }
     } else {
-        for (size_t i = first; i < last; i++) {
+        for (size_t i = 0; i < count; i++) {
             U[i] = start[i] + stage->keep * (U[i] - start[i]) + dt * (stage->rate * rate[i] + stage->sum * sum[i]);
             sum[i] += stage->accumulate * rate[i];
         }
+    }
+}
+
+/* The same of a field, for a piece of the particles. What has no rate of its own has the v of the stage's beginning,
+ * field 0: that at the start of the step, or the one that is about to be updated. */
+static void update_field(const struct solver_state *state, const struct solver_field *field,
+                         const struct solver_stage *stage, double dt, struct solver_piece at)
+{
+    bool begins = stage->time == 0.0;
+    size_t first = field->offset + at.begin * field->width;
+    size_t of_rate = field->rate != NULL ? first : at.begin * field->width;
+    size_t count = (at.end - at.begin) * field->width;
+    if (state->in_single) {
+        float *v = begins ? state->single.start : state->single.U;
+        state->single.loops->update(state->single.U + first, state->single.start + first,
+                                    (field->rate != NULL ? state->single.rate : v) + of_rate,
+                                    state->single.sum != NULL ? state->single.sum + first : NULL, count, stage, dt);
+    } else {
+        double *v = begins ? state->start : state->U;
+        update_numbers(state->U + first, state->start + first, (field->rate != NULL ? state->rate : v) + of_rate,
+                       state->sum != NULL ? state->sum + first : NULL, count, stage, dt);
     }
 }
 
@@ -128,23 +143,46 @@ static void reflect(struct solver_run *run)
     }
 }
 
-/* State of the next stage and what follows from it, piece by piece, while the piece is in cache. */
-static bool update(struct solver_run *run, const struct solver_stage *stage, double t, double dt,
-                   struct solver_error *error)
+/* The state and that at the start of the step change places. */
+static void turn(struct solver_run *run)
+{
+    solver_state_turn(&run->state);
+    if (run->scheme->bind != NULL) {
+        run->scheme->bind(run->system);
+    }
+}
+
+/* Whether more may break a particle after a step's last stage: the pressure's correction, a wall, a moved face. */
+static bool breaks_later(const struct solver_run *run)
+{
+    return run->scene->incompressible.solver != SOLVER_PRESSURE_NONE || run->wall.count > 0 || run->faces.moved;
+}
+
+/* State of the next stage and what follows from it, piece by piece, while the piece is in cache. *whole: this is a
+ * step's end, and no particle is broken. */
+static bool update(struct solver_run *run, int s, double t, double dt, bool *whole, struct solver_error *error)
 {
     struct solver_state *state = &run->state;
+    const struct solver_stage *stage = &run->integrator->stage[s];
+    bool look = s + 1 == run->integrator->stages && !breaks_later(run);
     size_t count = solver_cloud_driven(run->cloud);
-#pragma omp parallel for schedule(static)
+    bool good = true;
+    if (s == 0) {
+        turn(run);
+    }
+#pragma omp parallel for schedule(static) reduction(&& : good)
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
         struct solver_piece at = solver_piece_at(piece, count);
-        for (size_t f = 0; f < state->field_count && state->field[f].evolved; f++) {
-            size_t width = state->field[f].width;
-            size_t offset = state->field[f].offset;
-            update_slice(state, stage, dt, offset + at.begin * width, offset + at.end * width);
+        for (size_t f = state->field_count; f-- > 0;) { /* v is the first, and the rate of the last */
+            if (state->field[f].evolved) {
+                update_field(state, &state->field[f], stage, dt, at);
+            }
         }
         run->scheme->refresh(run->system, at.begin, at.end);
+        good = good && (!look || run->scheme->first_broken(run->system, at.begin, at.end) == at.end);
     }
-    return solver_faces_constrain(&run->faces, &run->body, t, state->lanes, state->v, error);
+    *whole = look && good;
+    return solver_faces_constrain(&run->faces, &run->body, t, solver_state_v(state), error);
 }
 
 /* What the scheme changes of a stage's state in the light of all of it. */
@@ -162,7 +200,7 @@ static double largest_step(const struct solver_run *run)
 /* The state at the start of the step again: after a stage that failed, or a step that broke a particle. */
 static void take_back(struct solver_run *run)
 {
-    memcpy(run->state.U, run->state.start, run->state.evolved * sizeof(double));
+    turn(run);
     solver_run_refresh(run);
 }
 
@@ -181,8 +219,8 @@ struct work {
     double external, numerical; /* of the loads; taken by the scheme's dissipation, where the scene's balance asks */
 };
 
-/* All stages of a step. After a failure the state is that of the start. */
-static bool stages(struct solver_run *run, double dt, struct work *work, struct solver_error *error)
+/* All stages of a step. After a failure the state is that of the start. *whole as in update. */
+static bool stages(struct solver_run *run, double dt, struct work *work, bool *whole, struct solver_error *error)
 {
     const struct solver_integrator *integrator = run->integrator;
     *work = (struct work){.external = 0.0};
@@ -194,9 +232,9 @@ static bool stages(struct solver_run *run, double dt, struct work *work, struct 
         if (known && run->scene->balance) {
             work->numerical += stage->weight * dt * run->scheme->lost(run->system);
         }
-        if (!known || !update(run, stage, run->time + next * dt, dt, error) ||
+        if (!known || !update(run, s, run->time + next * dt, dt, whole, error) ||
             !correct(run, s, run->time + next * dt, dt, error)) {
-            if (known || s > 0) { /* else there is nothing to take back, and no start of this step yet */
+            if (known || s > 0) { /* else there is nothing to take back */
                 take_back(run);
             }
             return false;
@@ -212,6 +250,7 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
 {
     double before = run->time;
     struct work work;
+    bool whole = false;
     if (run->scheme->prepare != NULL && !run->scheme->prepare(run->system, dt, error)) {
         return false;
     }
@@ -219,13 +258,13 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
     if (run->wall.count > 0 && run->cloud->symmetry != NULL) {
         solver_symmetry_reflect(run->cloud, &run->state);
     }
-    if (!stages(run, dt, &work, error)) {
+    if (!stages(run, dt, &work, &whole, error)) {
         say_when(run, dt, error);
         return false;
     }
     run->time += dt;
     run->step++;
-    if (solver_run_check(run, error)) {
+    if (whole || solver_run_check(run, error)) {
         run->external += work.external;
         run->numerical += work.numerical;
         solver_wall_end(&run->wall, &run->state);

@@ -161,24 +161,46 @@ static void check_jst(lua_State *L, struct solver_scene *scene)
         jst->plastic_at = 0.5;
 }
 
+/* A state in single precision is for the loops of upwind, and for what reads it through accessors. */
+static void check_single(lua_State *L, const struct solver_scene *scene)
+{
+    static const char *const expected = "expected double or mixed";
+    if (solver_scene_flows(scene))
+        scene_refuse(L, "precision: single knows no plastic flow (material.yield_stress); %s", expected);
+    if (strcmp(scene->angular_momentum, "projected") == 0)
+        scene_refuse(L, "precision: single keeps no momentum to round-off (angular_momentum = \"projected\"); %s",
+                     expected);
+    const double *n = scene->rigid_wall.normal;
+    if (n[0] != 0 || n[1] != 0 || n[2] != 0 || scene->die_count > 0)
+        scene_refuse(L, "precision: single knows no walls (rigid_wall, die); %s", expected);
+    if (scene->shape_count > 0)
+        scene_refuse(L, "precision: single knows no contact of bodies (bodies); %s", expected);
+    if (scene->balance)
+        scene_refuse(L, "precision: single measures no dissipation (balance); %s", expected);
+}
+
 /* Pair vectors in single precision are for what the loops of upwind take from them. */
 static void check_precision(lua_State *L, const struct solver_scene *scene)
 {
     const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
-    if (strcmp(scene->precision, "mixed") != 0)
+    const char *precision = scene->precision;
+    if (strcmp(precision, "double") == 0)
         return;
     if (strcmp(scene->scheme, "upwind") != 0)
-        scene_refuse(L, "precision: mixed is for scheme = \"upwind\", not %s; expected double", scene->scheme);
+        scene_refuse(L, "precision: %s is for scheme = \"upwind\", not %s; expected double", precision, scene->scheme);
     if (builder == NULL || !builder->antisymmetric)
-        scene_refuse(L,
-                     "precision: mixed is for antisymmetric stencils, closed, sbp2 and sbp4, not %s; expected double",
-                     scene->stencil);
+        scene_refuse(L, "precision: %s is for antisymmetric stencils, closed, sbp2 and sbp4, not %s; expected double",
+                     precision, scene->stencil);
     if (scene->evolved != SOLVER_PF && strcmp(scene->volume_flux, "stress") == 0)
-        scene_refuse(L, "precision: mixed knows volume_flux = \"pressure\" alone; expected double");
+        scene_refuse(L, "precision: %s knows volume_flux = \"pressure\" alone; expected double", precision);
     if (scene->incompressible.solver != SOLVER_PRESSURE_NONE)
-        scene_refuse(L, "precision: mixed knows no pressure of its own (incompressible.solver); expected double");
+        scene_refuse(L, "precision: %s knows no pressure of its own (incompressible.solver); expected double",
+                     precision);
     if (scene->domain.cut[0] || scene->domain.cut[1] || scene->domain.cut[2])
-        scene_refuse(L, "precision: mixed knows no mirror images (domain.symmetry of a round body); expected double");
+        scene_refuse(L, "precision: %s knows no mirror images (domain.symmetry of a round body); expected double",
+                     precision);
+    if (strcmp(precision, "single") == 0)
+        check_single(L, scene);
 }
 
 /* A plane wall has a point and a normal that is one. */
@@ -232,8 +254,8 @@ static int read_scene(lua_State *L)
     check_jst(L, scene);
     check_rigid_wall(L, scene);
     scene_read_bodies(L, scene);
-    check_precision(L, scene);
     scene_read_die(L, scene);
+    check_precision(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)
         if (solver_scene_has(scene, (enum solver_formula)f))
             scene_refuse(L, "initial.from: the oracle gives the initial state, and the scene a formula for it besides");

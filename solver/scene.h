@@ -274,7 +274,7 @@ struct solver_scene {
     double snapshot[SOLVER_SNAPSHOTS]; /* [s] increasing, in (0, t_end]: a study's run stops there and is compared */
     int history;                       /* rows of the time history over t_end */
     bool balance;                      /* what numerical dissipation and a rigid wall take is measured */
-    char precision[SOLVER_NAME];       /* "double", "mixed" */
+    char precision[SOLVER_NAME];       /* "double", "mixed", "single" */
     int threads;                       /* 0: as many as there are cores and the work is worth */
 
     enum solver_face_kind face[SOLVER_FACES]; /* X0, X1, Y0, Y1, Z0, Z1, surface */

@@ -79,6 +79,8 @@ struct solver_scheme {
     void (*terms)(const void *system, struct solver_cost_terms *terms);
     /* Fills the table of fields (state.h) and returns its rows. */
     size_t (*fields)(void *system, struct solver_field table[SOLVER_STATE_FIELDS]);
+    /* What else holds addresses of evolved fields: they have been written anew. NULL: nothing. */
+    void (*bind)(void *system);
     /* The other fields of the initial state; v and x are there. */
     bool (*start)(void *system, struct solver_error *error);
     /* Once before each step of size dt; NULL: nothing to do. What it changes of the state is kept if the step fails. */
@@ -108,6 +110,7 @@ struct solver_scheme {
     double (*lost)(const void *system);
     /* Plastic work per unit reference volume since the start [J/m^3]; NULL: the scheme knows no plastic flow. */
     double (*dissipated)(const void *system, size_t particle);
+    const struct solver_scheme *single; /* the same with its state in single precision; NULL: there is none */
     /* What outlives a step and is not a field, for checkpoints (keep.h); NULL: there is nothing. */
     bool (*keep)(void *system, struct solver_keeper *keeper, struct solver_error *error);
 };
@@ -116,6 +119,7 @@ struct solver_scheme {
 const struct solver_scheme *const *solver_schemes(void);
 const struct solver_scheme *solver_scheme_find(const char *name);
 
-extern const struct solver_scheme solver_scheme_upwind, solver_scheme_jst, solver_scheme_ulsph;
+extern const struct solver_scheme solver_scheme_upwind, solver_scheme_upwind_single, solver_scheme_jst,
+    solver_scheme_ulsph;
 
 #endif

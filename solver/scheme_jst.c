@@ -179,8 +179,9 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
     struct system *system = of;
     size_t rows = solver_upwind_fields(system, table);
     bool J = system->base.work.evolves_J;
-    table[rows++] = (struct solver_field){"Lap v", system->base.loops->lanes, false, &system->jst.v_laplacian, NULL, 0};
-    table[rows++] = (struct solver_field){"Lap J", J ? 1 : 0, false, &system->jst.J_laplacian, NULL, 0};
+    table[rows++] =
+        (struct solver_field){"Lap v", system->base.loops->lanes, false, {&system->jst.v_laplacian}, {NULL}, 0};
+    table[rows++] = (struct solver_field){"Lap J", J ? 1 : 0, false, {&system->jst.J_laplacian}, {NULL}, 0};
     return rows;
 }
 

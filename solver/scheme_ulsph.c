@@ -186,22 +186,22 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
     bool riemann = work->terms.dissipation == SOLVER_ULSPH_RIEMANN;
     bool tensile = work->terms.tension != SOLVER_ULSPH_BARE;
     const struct solver_field rows[] = {
-        {"v", vector, true, &work->v, &work->v_rate, 0},
-        {"x", vector, true, &work->x, &work->x_rate, 0},
-        {"rho", 1, true, &work->rho, &work->rho_rate, 0},
-        {"S", tensor, true, &work->S, &work->S_rate, 0},
-        {"m/rho", 1, false, &work->volume, NULL, 0},
-        {"cell", cuts_cells(system) ? 1 : 0, false, &work->cell, NULL, 0},
-        {"sqrt(rho)", riemann ? 1 : 0, false, &work->root_rho, NULL, 0},
-        {"z", riemann ? 1 : 0, false, &work->z, NULL, 0},
-        {"L", work->terms.gradient == SOLVER_ULSPH_CORRECTED ? tensor : 0, false, &work->L, NULL, 0},
-        {"transport v", work->terms.xsph > 0.0 ? vector : 0, false, &work->transport, NULL, 0},
-        {"sigma L", tensor, false, &work->sigma_L, NULL, 0},
-        {"sigma+ L", tensile ? tensor : 0, false, &work->tensile_L, NULL, 0},
-        {"colour", control ? 1 : 0, false, &work->colour, NULL, 0},
-        {"inner", control ? 1 : 0, false, &work->inner, NULL, 0},
-        {"grad v", riemann ? tensor : 0, false, &work->v_gradient, NULL, 0},
-        {"grad rho", work->terms.delta > 0.0 ? vector : 0, false, &work->rho_gradient, NULL, 0},
+        {"v", vector, true, {&work->v}, {&work->v_rate}, 0},
+        {"x", vector, true, {&work->x}, {&work->x_rate}, 0},
+        {"rho", 1, true, {&work->rho}, {&work->rho_rate}, 0},
+        {"S", tensor, true, {&work->S}, {&work->S_rate}, 0},
+        {"m/rho", 1, false, {&work->volume}, {NULL}, 0},
+        {"cell", cuts_cells(system) ? 1 : 0, false, {&work->cell}, {NULL}, 0},
+        {"sqrt(rho)", riemann ? 1 : 0, false, {&work->root_rho}, {NULL}, 0},
+        {"z", riemann ? 1 : 0, false, {&work->z}, {NULL}, 0},
+        {"L", work->terms.gradient == SOLVER_ULSPH_CORRECTED ? tensor : 0, false, {&work->L}, {NULL}, 0},
+        {"transport v", work->terms.xsph > 0.0 ? vector : 0, false, {&work->transport}, {NULL}, 0},
+        {"sigma L", tensor, false, {&work->sigma_L}, {NULL}, 0},
+        {"sigma+ L", tensile ? tensor : 0, false, {&work->tensile_L}, {NULL}, 0},
+        {"colour", control ? 1 : 0, false, {&work->colour}, {NULL}, 0},
+        {"inner", control ? 1 : 0, false, {&work->inner}, {NULL}, 0},
+        {"grad v", riemann ? tensor : 0, false, {&work->v_gradient}, {NULL}, 0},
+        {"grad rho", work->terms.delta > 0.0 ? vector : 0, false, {&work->rho_gradient}, {NULL}, 0},
     };
     memcpy(table, rows, sizeof rows);
     return sizeof rows / sizeof *rows;
@@ -271,13 +271,19 @@ static bool strain_initially(struct system *system, size_t a, struct solver_erro
     return true;
 }
 
+static void bind(void *of)
+{
+    struct system *system = of;
+    if (!(system->work.terms.xsph > 0.0)) {
+        system->work.transport = system->work.v;
+    }
+}
+
 static bool start(void *of, struct solver_error *error)
 {
     struct system *system = of;
     struct solver_ulsph *work = &system->work;
-    if (work->transport == NULL) {
-        work->transport = work->v;
-    }
+    bind(system);
     if (work->cell == NULL) {
         work->cell = work->volume;
     }
@@ -333,7 +339,9 @@ static bool evaluate(void *of, double t, double dt, struct solver_error *error)
     over_all(system, system->loops->geometry);
     /* smoothing must not carry particles off the faces that hold them */
     if (work->transport != work->v &&
-        !solver_faces_constrain(system->body->faces, system->body, t, system->loops->lanes, work->transport, error)) {
+        !solver_faces_constrain(system->body->faces, system->body, t,
+                                (struct solver_vectors){.wide = work->transport, .lanes = system->loops->lanes},
+                                error)) {
         return false;
     }
     over_all(system, system->loops->gradients);
@@ -444,6 +452,7 @@ const struct solver_scheme solver_scheme_ulsph = {
     .fields = fields,
     .arrays = arrays,
     .terms = terms,
+    .bind = bind,
     .start = start,
     .evaluate = evaluate,
     .refresh = refresh,

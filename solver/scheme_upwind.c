@@ -67,7 +67,7 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     system->residuals = solver_stencil_check(*stencil, cloud);
     return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
            solver_stencil_share(*stencil, error) &&
-           (strcmp(scene->precision, "mixed") != 0 || solver_stencil_narrow(*stencil, error));
+           (strcmp(scene->precision, "double") == 0 || solver_stencil_narrow(*stencil, error));
 }
 
 bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error)
@@ -167,44 +167,75 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     bool placed = system->rates == NULL && (work->frozen || work->reconstruct || work->evolves_J);
     size_t remembered = work->hardening != NULL ? work->material->flow->width : 0;
     const struct solver_field rows[] = {
-        {"v", vector, true, &work->v, &work->v_rate, 0},
-        {"x", vector, true, &work->x, &work->x_rate, 0},
-        {"F", tensor, true, &work->F, &work->F_rate, 0},
-        {"H", work->evolves_H ? tensor : 0, true, &work->H, &work->H_rate, 0},
-        {"J", work->evolves_J ? 1 : 0, true, &work->J, &work->J_rate, 0},
-        {"X", placed ? vector : 0, false, &work->X, NULL, 0},
-        {"P", tensor, false, &work->P, NULL, 0},
-        {"cof F", work->evolves_J && !work->evolves_H && !work->frozen ? tensor : 0, false, &work->cofactor, NULL, 0},
-        {"U'(J)", pressure ? 1 : 0, false, &work->pressure, NULL, 0},
-        {"grad U'(J)", pressure && slopes ? vector : 0, false, &work->pressure_gradient, NULL, 0},
-        {"grad P", work->evolves_J && work->whole_jump && slopes ? dim * tensor : 0, false, &work->P_gradient, NULL, 0},
-        {"grad v", slopes && work->least_squares != NULL ? tensor : 0, false, &work->v_gradient, NULL, 0},
-        {"power lost", system->body->scene->balance ? 2 : 0, false, &work->lost, NULL, 0},
-        {"plastic flow", remembered, false, &work->flown, NULL, 0},
-        {"plastic flow at the start", remembered, false, &work->flown_before, NULL, 0},
+        {"v", vector, true, {&work->v}, {&work->v_rate}, 0},
+        {"x", vector, true, {&work->x}, {NULL}, 0},
+        {"F", tensor, true, {&work->F}, {&work->F_rate}, 0},
+        {"H", work->evolves_H ? tensor : 0, true, {&work->H}, {&work->H_rate}, 0},
+        {"J", work->evolves_J ? 1 : 0, true, {&work->J}, {&work->J_rate}, 0},
+        {"X", placed ? vector : 0, false, {&work->X}, {NULL}, 0},
+        {"P", tensor, false, {&work->P}, {NULL}, 0},
+        {"cof F",
+         work->evolves_J && !work->evolves_H && !work->frozen ? tensor : 0,
+         false,
+         {&work->cofactor},
+         {NULL},
+         0},
+        {"U'(J)", pressure ? 1 : 0, false, {&work->pressure}, {NULL}, 0},
+        {"grad U'(J)", pressure && slopes ? vector : 0, false, {&work->pressure_gradient}, {NULL}, 0},
+        {"grad P",
+         work->evolves_J && work->whole_jump && slopes ? dim * tensor : 0,
+         false,
+         {&work->P_gradient},
+         {NULL},
+         0},
+        {"grad v", slopes && work->least_squares != NULL ? tensor : 0, false, {&work->v_gradient}, {NULL}, 0},
+        {"power lost", system->body->scene->balance ? 2 : 0, false, {&work->lost}, {NULL}, 0},
+        {"plastic flow", remembered, false, {&work->flown}, {NULL}, 0},
+        {"plastic flow at the start", remembered, false, {&work->flown_before}, {NULL}, 0},
     };
     memcpy(table, rows, sizeof rows);
     return sizeof rows / sizeof *rows;
 }
 
-/* F = sum_b (x_b - x_a) (x) C_ab / 2V_a, row by row. */
-static void discrete_F(const struct solver_upwind_system *system, size_t a, double *F)
+void solver_upwind_gradient(const struct solver_stencil *stencil, const struct solver_vectors *x, const double *X,
+                            size_t a, double *G)
 {
-    const struct solver_stencil *stencil = system->stencil;
-    const double *x = system->work.x;
     size_t dim = (size_t)stencil->dim;
-    size_t lanes = system->loops->lanes;
     size_t shift = solver_stencil_shift(stencil, a);
-    memset(F, 0, dim * dim * sizeof *F);
+    memset(G, 0, dim * dim * sizeof *G);
     for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
         const double *C = solver_stencil_C(stencil, ab + shift);
         size_t b = stencil->graph.neighbour[ab];
         for (size_t i = 0; i < dim; i++) {
-            double d = x[b * lanes + i] - x[a * lanes + i];
+            double d = solver_vectors_get(x, b, i) - solver_vectors_get(x, a, i);
+            d -= X != NULL ? X[b * dim + i] - X[a * dim + i] : 0.0;
             for (size_t I = 0; I < dim; I++) {
-                F[i * dim + I] += 0.5 * d * C[I] / stencil->V[a];
+                G[i * dim + I] += 0.5 * d * C[I] / stencil->V[a];
             }
         }
+    }
+}
+
+/* F of the places where particles are. The gradient of X itself is the identity, but for what rounded pair vectors make
+ * of it, which is left out: a body at rest has no strain. */
+static void discrete_F(const struct solver_upwind_system *system, size_t a, double *F)
+{
+    const struct solver_vectors x = {.wide = system->work.x, .lanes = system->loops->lanes};
+    bool rounded = system->stencil->narrow != NULL;
+    size_t dim = (size_t)system->body->cloud->dim;
+    solver_upwind_gradient(system->stencil, &x, rounded ? system->body->cloud->X : NULL, a, F);
+    for (size_t i = 0; rounded && i < dim; i++) {
+        F[i * dim + i] += 1.0;
+    }
+}
+
+/* H, where it is evolved and stands in the equation of J, is its cofactor. */
+void solver_upwind_bind(void *of)
+{
+    struct solver_upwind_system *system = of;
+    struct solver_upwind *work = &system->work;
+    if (work->evolves_H && !work->frozen) {
+        work->cofactor = work->H;
     }
 }
 
@@ -216,9 +247,7 @@ bool solver_upwind_start(void *of, struct solver_error *error)
     const struct solver_cloud *cloud = system->body->cloud;
     size_t dim = (size_t)cloud->dim;
     size_t lanes = system->loops->lanes;
-    if (work->evolves_H && !work->frozen) {
-        work->cofactor = work->H;
-    }
+    solver_upwind_bind(system);
     for (size_t a = 0; a < cloud->count; a++) {
         double X[3] = {0};
         double F[9];
@@ -237,6 +266,8 @@ bool solver_upwind_start(void *of, struct solver_error *error)
             }
         }
     }
+    size_t of_pairs = (2 * dim + 2) * lanes * sizeof(double); /* P, slope of v, v and X */
+    work->far = cloud->count * of_pairs > (size_t)1 << 20;
     system->loops->measures(work->frozen, 0, cloud->count, work->F, work->H, work->J);
     if (system->pressure != NULL) {
         solver_pressure_start(system->pressure);
@@ -405,6 +436,7 @@ const struct solver_scheme solver_scheme_upwind = {
     .correct = correct,
     .keep = keep,
     .iterations = iterations,
+    .single = &solver_scheme_upwind_single,
     .arrays = solver_upwind_arrays,
     .terms = solver_upwind_terms,
     SOLVER_UPWIND_SHARED,

@@ -35,6 +35,7 @@ struct solver_geometry solver_upwind_geometry(const void *of);
 size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS]);
 void solver_upwind_arrays(const void *of, struct solver_cost_arrays *arrays);
 void solver_upwind_terms(const void *of, struct solver_cost_terms *terms);
+void solver_upwind_bind(void *of);
 bool solver_upwind_start(void *of, struct solver_error *error);
 bool solver_upwind_prepare(void *of, double dt, struct solver_error *error);
 bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *error);
@@ -46,6 +47,11 @@ void solver_upwind_look(const void *of, size_t a, struct solver_point *point);
 double solver_upwind_energy(const void *of, size_t a);
 double solver_upwind_dissipated(const void *of, size_t a);
 double solver_upwind_lost(const void *of);
+
+/* The stencil's gradient at particle a, sum_b (x_b - x_a) (x) C_ab / 2V_a, row by row, of x, or of x - X where X,
+ * [count][dim], is not NULL. */
+void solver_upwind_gradient(const struct solver_stencil *stencil, const struct solver_vectors *x, const double *X,
+                            size_t a, double *G);
 
 /* What particle a remembers; NULL: nothing is plastic. */
 static inline const double *solver_upwind_memory(const struct solver_upwind *work, size_t a)
@@ -63,9 +69,10 @@ static inline const double *solver_upwind_memory(const struct solver_upwind *wor
 
 /* What such schemes have in common, for their initializers. */
 #define SOLVER_UPWIND_SHARED                                                                                           \
-    .deformation = true, .stencil = true, .start = solver_upwind_start, .prepare = solver_upwind_prepare,              \
-    .evaluate = solver_upwind_evaluate, .refresh = solver_upwind_refresh, .largest_step = solver_upwind_largest_step,  \
-    .first_broken = solver_upwind_first_broken, .complaint = solver_upwind_complaint, .look = solver_upwind_look,      \
-    .energy = solver_upwind_energy, .dissipated = solver_upwind_dissipated, .lost = solver_upwind_lost
+    .deformation = true, .stencil = true, .bind = solver_upwind_bind, .start = solver_upwind_start,                    \
+    .prepare = solver_upwind_prepare, .evaluate = solver_upwind_evaluate, .refresh = solver_upwind_refresh,            \
+    .largest_step = solver_upwind_largest_step, .first_broken = solver_upwind_first_broken,                            \
+    .complaint = solver_upwind_complaint, .look = solver_upwind_look, .energy = solver_upwind_energy,                  \
+    .dissipated = solver_upwind_dissipated, .lost = solver_upwind_lost
 
 #endif

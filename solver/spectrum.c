@@ -40,8 +40,8 @@ static bool rates(struct solver_run *run, struct solver_error *error)
     double power;
     solver_run_refresh(run);
     return run->scheme->evaluate(run->system, run->time, 0.0, error) &&
-           solver_faces_load(&run->faces, &run->body, &geometry, run->time, state->lanes, state->v, state->v_rate,
-                             &power, error);
+           solver_faces_load(&run->faces, &run->body, &geometry, run->time, solver_state_v(state),
+                             solver_state_v_rate(state), &power, error);
 }
 
 /* matrix[i][j] = d rate_i / d U_j by central differences, which have no error but round-off where rates are linear. A
@@ -59,12 +59,12 @@ static bool jacobian(struct solver_run *run, const size_t *index, size_t count, 
         *entry = before + change;
         ok = rates(run, error);
         for (size_t i = 0; i < count; i++) {
-            forward[i] = state->rate[index[i]];
+            forward[i] = solver_state_rate(state, index[i]);
         }
         *entry = before - change;
         ok = ok && rates(run, error);
         for (size_t i = 0; i < count; i++) {
-            matrix[i * count + j] = (forward[i] - state->rate[index[i]]) / (2.0 * change);
+            matrix[i * count + j] = (forward[i] - solver_state_rate(state, index[i])) / (2.0 * change);
         }
         *entry = before;
     }

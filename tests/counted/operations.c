@@ -75,6 +75,11 @@ static void test_upwind(void)
         "evolved=pFHJ stencil=sbp4 integrator=rk4 n=8",
         "evolved=pFHJ integrator=ssp-rk3",
         "evolved=pFHJ integrator=euler",
+        "evolved=pF precision=single material.model=linear-elastic",
+        "evolved=pFHJ precision=single material.model=linear-elastic",
+        "evolved=pF precision=single reconstruction=none",
+        "evolved=pFJ precision=single integrator=rk4",
+        "evolved=pFHJ precision=single integrator=ssp-rk3",
     };
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         expect(smooth_motion, words[i], exact);

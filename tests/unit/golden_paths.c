@@ -68,6 +68,8 @@ static const char *const nonlinear[] = {
     "dim=2 n=9 stencil=sbp2 evolved=pFJ reconstruction=least-squares",
     "dim=2 n=9 stencil=sbp2 evolved=pFHJ volume_flux=stress integrator=rk4",
     "dim=3 stencil=sbp2 evolved=pF material.model=hencky material.yield_stress=1e-3 material.hardening=0.1",
+    "dim=3 stencil=closed evolved=pFHJ perturb=0.1 precision=single",
+    "dim=2 n=9 stencil=sbp4 evolved=pFJ precision=single integrator=rk4",
 };
 
 static void test_same_bits(void)

@@ -241,6 +241,9 @@ static void memory_is_as_declared(void)
         expect_memory(smooth_motion, "dim=%d stencil=sbp4 n=8", dim);
         expect_memory(smooth_motion, "dim=%d stencil=sbp2 n=9", dim); /* rows are kept once */
         expect_memory(smooth_motion, "dim=%d stencil=sbp2 n=9 precision=mixed", dim);
+        expect_memory(smooth_motion, "dim=%d precision=single", dim);
+        expect_memory(smooth_motion, "dim=%d precision=single evolved=pFJ integrator=rk4", dim);
+        expect_memory(composite, "dim=%d precision=single evolved=pF reconstruction=least-squares", dim);
         expect_memory(walled, "dim=%d", dim);
         expect_memory(touching, "dim=%d stencil=sph", dim);
         expect_memory(apart, "dim=%d stencil=sph", dim);

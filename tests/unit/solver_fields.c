@@ -78,8 +78,9 @@ static void run_phase(struct machine *machine, int phase)
     } else if (phase == REFRESH) {
         scheme->refresh(machine->run->system, 0, machine->count);
     } else if (phase == UPDATE) {
-        for (size_t i = 0; i < machine->state->evolved; i++) {
-            machine->state->U[i] += machine->dt * machine->state->rate[i];
+        for (size_t i = machine->state->evolved;
+             i-- > 0;) { /* backwards: v, where the block begins, is the rate of x */
+            machine->state->U[i] += machine->dt * solver_state_rate(machine->state, i);
         }
     } else if (machine->ulsph != NULL) {
         ulsph_phase(machine, phase);
@@ -158,12 +159,12 @@ static double *rates_of(const char *more, const char *words, size_t which, int b
     if (before == PHASES) {
         spoil(&victim[which], name);
     }
-    size_t evolved = machine.state->evolved;
-    *size = (evolved + 1) * sizeof(double);
+    size_t count = machine.state->rates;
+    *size = (count + 1) * sizeof(double);
     double *rates = malloc(*size);
     CU_ASSERT_PTR_NOT_NULL_FATAL(rates);
-    memcpy(rates, machine.state->rate, evolved * sizeof(double));
-    rates[evolved] = machine.sample.scene->balance ? machine.run->scheme->lost(machine.run->system) : 0.0;
+    memcpy(rates, machine.state->rate, count * sizeof(double));
+    rates[count] = machine.sample.scene->balance ? machine.run->scheme->lost(machine.run->system) : 0.0;
     finish(&machine.sample);
     return rates;
 }
@@ -231,7 +232,7 @@ static void poison_all_else(struct machine *machine)
         size_t from = kept ? used : 0;
         poison(*field->value + from, padded * field->width - from);
     }
-    poison(state->rate, state->evolved);
+    poison(state->rate, state->rates);
     poison(state->start, state->evolved);
     if (state->sum != NULL) {
         poison(state->sum, state->evolved);
@@ -249,7 +250,7 @@ static void expect_nothing_else_read(const char *more, const char *words)
     for (int phase = 0; phase < PHASES; phase++) {
         run_phase(&machine, phase % ROUND);
     }
-    for (size_t i = 0; i < machine.state->field_count && machine.state->field[i].evolved; i++) {
+    for (size_t i = 0; i < machine.state->field_count && machine.state->field[i].rate != NULL; i++) {
         const struct solver_field *field = &machine.state->field[i];
         bool same = memcmp(*field->rate, good + field->offset, machine.count * field->width * sizeof(double)) == 0;
         if (!same) {

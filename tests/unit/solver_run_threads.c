@@ -127,6 +127,8 @@ static void test_other_choices(void)
         "stencil=sbp4 evolved=pFJ reconstruction=none material.model=linear-elastic",
         "stencil=sbp2 evolved=pFHJ volume_flux=stress material.model=linear-elastic integrator=rk4",
         "scheme=ulsph material.model=linear-elastic ulsph.dissipation=viscosity ulsph.tension=stress integrator=rk4",
+        "stencil=closed evolved=pFHJ precision=single integrator=rk4",
+        "stencil=sbp2 evolved=pF precision=single material.model=linear-elastic",
     };
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         for (size_t dim = 1; dim <= 3; dim++) {

@@ -58,7 +58,6 @@ static void divide_in_hot_loop(void)
     double V[2] = {1.0, zero};
     struct solver_upwind work = {.row = row, .neighbour = neighbour, .pair = pair, .unit = 1.0, .V = V, .v = v};
     work.F_rate = rates;
-    work.x_rate = rates + 8;
     solver_upwind_2d_baseline.gradients(&work, 0, 2);
 }
 
