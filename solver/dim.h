@@ -36,14 +36,18 @@ static inline void store(double *to, vec value)
     *(vec *)to = value;
 }
 
-static inline double dot(vec a, vec b)
+static inline double sum_of(vec a)
 {
-    vec product = a * b;
-    double sum = product[0];
+    double sum = a[0];
     for (int i = 1; i < DIM; i++) {
-        sum += product[i];
+        sum += a[i];
     }
     return sum;
+}
+
+static inline double dot(vec a, vec b)
+{
+    return sum_of(a * b);
 }
 
 static inline vec splat(double a)
@@ -54,44 +58,6 @@ static inline vec splat(double a)
     return (vec){a, a};
 #else
     return (vec){a};
-#endif
-}
-
-/* Component I, a constant, in every lane. */
-static inline vec spread(vec a, int I)
-{
-#if DIM == 3
-    return I == 0   ? __builtin_shufflevector(a, a, 0, 0, 0, 0)
-           : I == 1 ? __builtin_shufflevector(a, a, 1, 1, 1, 1)
-           : I == 2 ? __builtin_shufflevector(a, a, 2, 2, 2, 2)
-                    : __builtin_shufflevector(a, a, 3, 3, 3, 3);
-#elif DIM == 2
-    return I == 0 ? __builtin_shufflevector(a, a, 0, 0) : __builtin_shufflevector(a, a, 1, 1);
-#else
-    (void)I;
-    return a;
-#endif
-}
-
-/* a . b and c . d, each in every lane: half the shuffles of two dots. Lanes beyond DIM are zero. */
-static inline void spread_dots(vec a, vec b, vec c, vec d, vec *ab, vec *cd)
-{
-#if DIM == 3
-    vec first = a * b;
-    vec second = c * d;
-    vec pairs = __builtin_shufflevector(first, second, 0, 4, 2, 6) + __builtin_shufflevector(first, second, 1, 5, 3, 7);
-    vec both = pairs + __builtin_shufflevector(pairs, pairs, 2, 3, 0, 1);
-    *ab = __builtin_shufflevector(both, both, 0, 0, 2, 2);
-    *cd = __builtin_shufflevector(both, both, 1, 1, 3, 3);
-#elif DIM == 2
-    vec first = a * b;
-    vec second = c * d;
-    vec both = __builtin_shufflevector(first, second, 0, 2) + __builtin_shufflevector(first, second, 1, 3);
-    *ab = __builtin_shufflevector(both, both, 0, 0);
-    *cd = __builtin_shufflevector(both, both, 1, 1);
-#else
-    *ab = a * b;
-    *cd = c * d;
 #endif
 }
 
@@ -160,9 +126,11 @@ static inline struct tensor transpose(struct tensor A)
 }
 
 #if DIM == 3
+/* Its third component stands first until the last shuffle: that is one shuffle fewer. */
 static inline vec cross(vec a, vec b)
 {
-    return (vec){a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.0};
+    vec turned = a * __builtin_shufflevector(b, b, 1, 2, 0, 3) - __builtin_shufflevector(a, a, 1, 2, 0, 3) * b;
+    return __builtin_shufflevector(turned, turned, 1, 2, 0, 3);
 }
 #endif
 

@@ -14,7 +14,7 @@ struct sums {
     double volume;   /* 2 z_p V_a D(J_a) (eq. 30) */
 };
 
-static inline void finish(const struct solver_upwind *work, size_t a, struct sums sums)
+static inline __attribute__((always_inline)) void finish(const struct solver_upwind *work, size_t a, struct sums sums)
 {
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
     double per_V = work->unit / work->V[a];

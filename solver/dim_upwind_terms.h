@@ -1,5 +1,5 @@
 /* Operations of the loops of upwind_dim.c, term by term, as cost.h counts them. Whoever changes a loop changes its row.
- */
+ * Idle pairs of a group (dim_pairs.h) compute nothing that is wanted and do not count. */
 #ifndef SOLVER_DIM_UPWIND_TERMS_H
 #define SOLVER_DIM_UPWIND_TERMS_H
 
@@ -14,13 +14,13 @@ static inline void gradient_terms(const struct solver_upwind *work, size_t count
     double particles = (double)count;
     double of_vector = pairs * (LANES + FLOPS_ADD_SCALED) + particles * JOIN;
     bool own = work->least_squares != NULL;
-    solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (2.0 + FLOPS_TENSOR));
+    solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (2.0 * LANES + FLOPS_TENSOR));
     if (work->v_gradient != NULL) {
         solver_cost_term(terms, "gradient of v by least squares", 1, of_vector);
     }
     if (work->pressure_gradient != NULL) {
         solver_cost_term(terms, own ? "gradient of U'(J) by least squares" : "gradient of U'(J)", 1,
-                         pairs * (1.0 + 2.0 * LANES) + (own ? 0.0 : particles * LANES));
+                         pairs * 3.0 * LANES + (own ? 0.0 : particles * LANES));
     }
     if (work->P_gradient != NULL) {
         solver_cost_term(terms, own ? "gradient of P by least squares" : "gradient of P", 1,
@@ -35,12 +35,16 @@ static inline bool turns(const struct solver_upwind *work)
     return work->evolves_J && (!work->frozen || work->whole_jump);
 }
 
-static inline void volume_terms(const struct solver_upwind *work, double pairs, struct solver_cost_terms *terms)
+static inline void volume_terms(const struct solver_upwind *work, double pairs, double particles,
+                                struct solver_cost_terms *terms)
 {
-    double area = (work->frozen ? 0.0 : 4.0 * FLOPS_TENSOR) + FLOPS_SPREAD_DOTS + 5.0 * LANES;
-    double jump = work->whole_jump ? 3.0 * FLOPS_TENSOR + FLOPS_DOT + 2.0 : 3.0;
-    double slope = work->whole_jump ? DIM * (3.0 * FLOPS_TENSOR + DIM) : 4.0 * LANES;
-    solver_cost_term(terms, "dissipation of J", 2, pairs * ((turns(work) ? area : 0.0) + jump));
+    double area = (work->frozen ? 0.0 : 3.0 * FLOPS_TENSOR + LANES) + FLOPS_SPREAD_DOTS;
+    double share = (work->whole_jump ? 4.0 : 5.0) * LANES;
+    double jump = (work->whole_jump ? 3.0 * FLOPS_TENSOR + LANES : 0.0) + 3.0 * LANES;
+    double slope = work->whole_jump ? DIM * 3.0 * FLOPS_TENSOR : 4.0 * LANES;
+    double sum = (work->whole_jump ? 1.0 : 2.0) * LANES;
+    solver_cost_term(terms, "dissipation of J", 2,
+                     particles * sum + pairs * ((turns(work) ? area + share : 0.0) + jump));
     solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? pairs * slope : 0.0);
 }
 
@@ -50,14 +54,13 @@ static inline void rate_terms(const struct solver_upwind *work, size_t count, st
     double particles = (double)count;
     double vectors = 2.0 + (work->X != NULL ? 1.0 : 0.0) + (work->frozen ? 0.0 : 1.0); /* jump, back, distance, along */
     double flux = FLOPS_SPREAD_DOTS + (turns(work) ? 5.0 : 6.0) * LANES;
-    double sum = (work->stride != 0 ? LANES : 3.0 * LANES + 1.0) + 2.0 * DIM;
+    double sum = (work->stride != 0 ? 1.0 : 4.0) * LANES;
     solver_cost_term(terms, "internal force", 2, pairs * FLOPS_ADD_SCALED + particles * (DIM - 1) * LANES);
     solver_cost_term(terms, "dissipation of p", 2, pairs * (vectors * LANES + flux) + particles * sum);
     solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * 3.0 * FLOPS_TENSOR : 0.0);
-    solver_cost_term(terms, "impedances where materials meet", 2,
-                     work->stride != 0 ? pairs * (9.0 + 2.0 * LANES) : 0.0);
+    solver_cost_term(terms, "impedances where materials meet", 2, work->stride != 0 ? pairs * 11.0 * LANES : 0.0);
     if (work->evolves_J) {
-        volume_terms(work, pairs, terms);
+        volume_terms(work, pairs, particles, terms);
     }
 }
 
@@ -97,8 +100,9 @@ static inline void particle_terms(const struct solver_upwind *work, size_t count
     }
     solver_cost_term(terms, flows ? "stress and plastic flow" : "stress", 0, particles * stress);
     solver_cost_once(terms, "length of the step", particles * fastest);
+    bool known = work->frozen || (work->J != NULL && !work->constrained); /* whether it is J > 0 */
     solver_cost_once(terms, "whether the state is whole",
-                     particles * (FLOPS_DOT + FLOPS_CONTRACT + (work->J != NULL ? 0.0 : FLOPS_DETERMINANT)));
+                     particles * (FLOPS_DOT + 2.0 * FLOPS_TENSOR + (known ? 0.0 : FLOPS_DETERMINANT)));
 }
 
 #endif

@@ -1,63 +1,70 @@
 #include "solver/upwind.h"
 
+#include "solver/dim_fluxes.h"
 #include "solver/dim_pairs.h"
 #include "solver/dim_sums.h"
 #include "solver/dim_upwind_terms.h"
 
 #include <math.h>
 
-/* Gradients of a vector field and, if asked for, of a scalar one. */
+/* Gradients of a vector field and, if asked for, of a scalar one, at the particles of a group. */
 struct gradients {
-    struct tensor of_vector;
-    vec of_scalar;
+    wide of_vector[DIM], of_scalar;
 };
 
 /* Which weights gradients are summed with. */
 enum weighting { WIDE, NARROW, LEAST_SQUARES };
 
-static inline __attribute__((always_inline)) void add_difference(const struct solver_upwind *work,
-                                                                 enum weighting weighting, size_t ab, vec difference,
-                                                                 const double *scalar, double scalar_a,
-                                                                 struct gradients *G)
+static inline __attribute__((always_inline)) struct weights
+load_weighting(const struct solver_upwind *work, enum weighting weighting, const struct pairs *pairs)
 {
-    struct weights w = weighting == LEAST_SQUARES ? load_weights(work->least_squares + ab * DIM, DIM)
-                                                  : load_pair(work, ab, weighting == NARROW).C;
+    if (weighting != LEAST_SQUARES) {
+        return load_pair(work, pairs, weighting == NARROW).C;
+    }
+    const double *from[GROUP];
+    weights_at(work->least_squares, DIM, pairs, from);
+    return load_weights(from, DIM);
+}
+
+static inline __attribute__((always_inline)) void
+add_difference(const struct solver_upwind *work, enum weighting weighting, const struct group *group, size_t k,
+               bool idle, const double *field, wide field_a, const double *scalar, wide scalar_a, struct gradients *G)
+{
+    struct pairs pairs = pairs_of(work, group, k, idle);
+    struct weights w = load_weighting(work, weighting, &pairs);
+    wide difference = gather(field, LANES, pairs.b) - field_a;
     for (int I = 0; I < DIM; I++) {
-        G->of_vector.column[I] += difference * w.each[I];
+        G->of_vector[I] += difference * w.each[I];
     }
     if (scalar != NULL) {
-        G->of_scalar += (*scalar - scalar_a) * w.together;
+        G->of_scalar += (gather_each(scalar, 1, pairs.b) - scalar_a) * w.together;
     }
 }
 
 /* sum_b (f_b - f_a) w_ab; `scalar` may be NULL. Sums over every other neighbour are kept apart, so that one does not
  * wait for the last; on a line there are too few for that. */
-static inline __attribute__((always_inline)) struct gradients sum_gradients(const struct solver_upwind *work, size_t a,
+static inline __attribute__((always_inline)) struct gradients sum_gradients(const struct solver_upwind *work,
+                                                                            const struct group *group,
                                                                             const double *field, const double *scalar,
                                                                             enum weighting weighting)
 {
     struct gradients even = {.of_scalar = {0}};
-    struct gradients odd = {.of_scalar = {0}};
-    const uint32_t *neighbour = work->neighbour;
-    vec f_a = load(field + a * LANES);
-    double s_a = scalar != NULL ? scalar[a] : 0.0;
-    size_t ab = work->row[a];
-    size_t end = work->row[a + 1];
-    for (; DIM > 1 && ab + 1 < end; ab += 2) {
-        size_t b = neighbour[ab];
-        size_t c = neighbour[ab + 1];
-        add_difference(work, weighting, ab, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
-                       &even);
-        add_difference(work, weighting, ab + 1, load(field + c * LANES) - f_a, scalar != NULL ? scalar + c : NULL, s_a,
-                       &odd);
+    struct gradients odd = even;
+    wide f_a = gather(field, LANES, group->at);
+    wide s_a = scalar != NULL ? gather_each(scalar, 1, group->at) : (wide){0};
+    size_t k = 0;
+    for (; DIM > 1 && k + 1 < group->shortest; k += 2) {
+        add_difference(work, weighting, group, k, false, field, f_a, scalar, s_a, &even);
+        add_difference(work, weighting, group, k + 1, false, field, f_a, scalar, s_a, &odd);
     }
-    for (; ab < end; ab++) {
-        size_t b = neighbour[ab];
-        add_difference(work, weighting, ab, load(field + b * LANES) - f_a, scalar != NULL ? scalar + b : NULL, s_a,
-                       &even);
+    for (; k < group->longest; k += 2) {
+        add_difference(work, weighting, group, k, true, field, f_a, scalar, s_a, &even);
+        if (k + 1 < group->longest) {
+            add_difference(work, weighting, group, k + 1, true, field, f_a, scalar, s_a, DIM > 1 ? &odd : &even);
+        }
     }
     for (int I = 0; I < DIM; I++) {
-        even.of_vector.column[I] += odd.of_vector.column[I];
+        even.of_vector[I] += odd.of_vector[I];
     }
     even.of_scalar += odd.of_scalar;
     return even;
@@ -86,27 +93,48 @@ static inline void stress_gradient(const struct solver_upwind *work, size_t a, c
     }
 }
 
-static inline void store_slope(double *to, vec slope)
+/* A gradient of U'(J), whose lanes beyond DIM mean nothing. */
+static inline __attribute__((always_inline)) void store_slope(const struct solver_upwind *work,
+                                                              const struct group *group, wide slope)
 {
-    for (int I = DIM; I < LANES; I++) {
-        slope[I] = 0.0;
+    for (int i = 0; i < WIDTH; i++) {
+        slope[i] = i % LANES < DIM ? slope[i] : 0.0;
     }
-    store(to, slope);
+    scatter(work->pressure_gradient, LANES, group->at, slope);
 }
 
 /* The stencil's own gradients, which are the rate of F; of U'(J) if `pressure`. */
 static inline __attribute__((always_inline)) void gradients_with(const struct solver_upwind *work, size_t begin,
                                                                  size_t end, bool pressure, bool narrow)
 {
-    for (size_t a = begin; a < end; a++) {
-        double half_per_V = 0.5 * work->unit / work->V[a];
-        struct gradients G = sum_gradients(work, a, work->v, pressure ? work->pressure : NULL, narrow ? NARROW : WIDE);
+    struct group group;
+    for (size_t a = begin; a < end; a += group.count) {
+        group = next_group(work, a, end);
+        wide half_per_V = 0.5 * (work->unit / gather_each(work->V, 1, group.at));
+        struct gradients G =
+            sum_gradients(work, &group, work->v, pressure ? work->pressure : NULL, narrow ? NARROW : WIDE);
         for (int I = 0; I < DIM; I++) {
-            store(work->F_rate + a * TENSOR + I * LANES, G.of_vector.column[I] * half_per_V);
+            scatter(work->F_rate + I * LANES, TENSOR, group.at, G.of_vector[I] * half_per_V);
         }
-        store(work->x_rate + a * LANES, load(work->v + a * LANES));
+        scatter(work->x_rate, LANES, group.at, gather(work->v, LANES, group.at));
         if (pressure) {
-            store_slope(work->pressure_gradient + a * LANES, half_per_V * G.of_scalar);
+            store_slope(work, &group, half_per_V * G.of_scalar);
+        }
+    }
+}
+
+static void least_squares_gradients(const struct solver_upwind *work, size_t begin, size_t end)
+{
+    const double *field = work->pressure_gradient != NULL ? work->pressure : NULL;
+    struct group group;
+    for (size_t a = begin; a < end; a += group.count) {
+        group = next_group(work, a, end);
+        struct gradients G = sum_gradients(work, &group, work->v, field, LEAST_SQUARES);
+        for (int I = 0; I < DIM; I++) {
+            scatter(work->v_gradient + I * LANES, TENSOR, group.at, G.of_vector[I]);
+        }
+        if (field != NULL) {
+            store_slope(work, &group, G.of_scalar);
         }
     }
 }
@@ -124,13 +152,8 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
     } else {
         gradients_with(work, begin, end, false, false);
     }
-    for (size_t a = begin; !own && work->v_gradient != NULL && a < end; a++) {
-        const double *field = work->pressure_gradient != NULL ? work->pressure : NULL;
-        struct gradients G = sum_gradients(work, a, work->v, field, LEAST_SQUARES);
-        store_tensor(work->v_gradient + a * TENSOR, G.of_vector);
-        if (field != NULL) {
-            store_slope(work->pressure_gradient + a * LANES, G.of_scalar);
-        }
+    if (!own && work->v_gradient != NULL) {
+        least_squares_gradients(work, begin, end);
     }
     for (size_t a = begin; work->P_gradient != NULL && a < end; a++) {
         stress_gradient(work, a, own ? work->pair : work->least_squares, own ? PAIR : DIM,
@@ -138,181 +161,102 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
     }
 }
 
-/* Impedances of a pair: z v jumps in the acoustic Riemann problem of eq. 27, 28, with 2 z_a z_b / (z_a + z_b) where
- * materials meet. */
-struct impedances {
-    double p, s;
-};
-
-static inline struct impedances pair_impedances(const struct solver_material_constants *of_a,
-                                                const struct solver_material_constants *of_b)
-{
-    return (struct impedances){.p = 2.0 * of_a->zp * of_b->zp / (of_a->zp + of_b->zp),
-                               .s = 2.0 * of_a->zs * of_b->zs / (of_a->zs + of_b->zs)};
-}
-
-/* Reconstructed jump of the stress times the pair's distance, (P+ - P-) d (eq. 27, 34). */
-static inline vec traction_jump(const struct solver_upwind *work, size_t a, size_t b, vec distance, bool reconstruct)
-{
-    vec traction = {0};
-    for (int I = 0; I < DIM; I++) {
-        vec jump = load(work->P + b * TENSOR + I * LANES) - load(work->P + a * TENSOR + I * LANES);
-        if (reconstruct) {
-            for (int K = 0; K < DIM; K++) {
-                vec slope = load(work->P_gradient + (a * DIM + (size_t)K) * TENSOR + I * LANES) +
-                            load(work->P_gradient + (b * DIM + (size_t)K) * TENSOR + I * LANES);
-                jump -= (0.5 * distance[K]) * slope;
-            }
-        }
-        traction += jump * distance[I];
-    }
-    return traction;
-}
-
-/* What the scene asks for, as constants where the sums are called, so that each combination is a loop of its own. */
-struct terms {
-    bool frozen, reconstruct, transposed, volume, whole, composite, narrow;
-};
-
-/* n (n . H^Ave N): what becomes of the unit vector N, not normalised, as the pair's area. */
-static inline __attribute__((always_inline)) vec pair_area(const struct solver_upwind *work, size_t a, size_t b,
-                                                           vec distance)
-{
-    vec area = {0};
-    for (int I = 0; I < DIM; I++) {
-        area += (load(work->cofactor + a * TENSOR + I * LANES) + load(work->cofactor + b * TENSOR + I * LANES)) *
-                spread(0.5 * distance, I);
-    }
-    return area;
-}
-
-/* Sums over the neighbours of one particle, before what is the same for all of them is multiplied in. Components are
- * summed apart as long as they may be: that is fewer shuffles, and no sum waits long for its last term. */
-struct pair_sums {
-    vec force[DIM]; /* sum_b P_b e_I D_I */
-    vec jumps;      /* sum_b A [v] */
-    vec normals;    /* sum_b A n (n . [v]) */
-    vec slopes;     /* sum_b A n^2 (slope of U' times N d), by components; n = n . H^Ave N here and below */
-    double volume;  /* sum_b A n^2 [U'], not reconstructed, or A n (n . [P N]) */
-};
-
-/* Upwind fluxes across a pair, twice: of momentum, A S (p+ - p-) (eq. 27, 28), from the jump of velocity with the
- * states reconstructed at mid-distance; n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) =
- * along (along . jump) / |along|^2. And of J (eq. 27, 28, 30, 33), times 2 z_p: A (n . (P+ - P-) N) (n . H^Ave N).
- * Eq. 33 as printed has the sign that would feed energy in; this is that of eq. 30. A N stands for C_ab, as in the flux
- * of p. By default only the volumetric part U'(J) H of the stress jumps: J is conjugate to it alone, so that without
- * reconstruction the flux cannot feed energy in, and its gradient is a vector instead of a third-order tensor. */
-static inline __attribute__((always_inline)) void add_fluxes(const struct solver_upwind *work, size_t a, size_t b,
-                                                             struct terms terms, vec jump, vec distance, vec along,
-                                                             vec face, struct impedances z, struct pair_sums *sums)
-{
-    bool alike = !terms.composite || /* where materials meet the volumetric stress has a jump of its own */
-                 work->constants[a].kappa == work->constants[b].kappa;
-    vec normal;
-    vec square;
-    vec by_normal; /* A / |along|^2 */
-    vec by_volume; /* A n^2; frozen: n = N, H = 1 */
-    spread_dots(along, jump, along, along, &normal, &square);
-    if (terms.volume && (!terms.frozen || terms.whole)) {
-        vec area = terms.frozen ? distance : pair_area(work, a, b, distance);
-        vec turned;
-        vec reference;
-        spread_dots(along, area, distance, distance, &turned, &reference);
-        vec share = face / (square * reference);
-        by_normal = share * reference;
-        by_volume = share * turned;
-        if (terms.whole) {
-            double flux = by_volume[0] * dot(along, traction_jump(work, a, b, distance, terms.reconstruct));
-            sums->volume += alike ? flux : 0.0;
-        }
-        by_volume *= turned;
-    } else {
-        by_normal = face / square;
-        by_volume = face;
-    }
-    sums->jumps += (terms.composite ? z.s * face : face) * jump;
-    sums->normals += (terms.composite ? (z.p - z.s) * normal * by_normal : normal * by_normal) * along;
-    if (terms.volume && !terms.whole && alike) {
-        sums->volume += by_volume[0] * (work->pressure[b] - work->pressure[a]);
-        if (terms.reconstruct) {
-            vec slope = load(work->pressure_gradient + a * LANES) + load(work->pressure_gradient + b * LANES);
-            sums->slopes += by_volume * (slope * distance);
-        }
-    }
-}
-
-static inline __attribute__((always_inline)) struct sums combine(const struct pair_sums *sums, struct terms terms,
-                                                                 struct impedances z)
-{
-    struct sums all = {.force = sums->force[0], .volume = sums->volume};
-    for (int I = 1; I < DIM; I++) {
-        all.force += sums->force[I];
-    }
-    all.dissipation = terms.composite ? sums->jumps + sums->normals : z.s * sums->jumps + (z.p - z.s) * sums->normals;
-    for (int I = 0; I < DIM; I++) {
-        all.volume -= 0.5 * sums->slopes[I];
-    }
-    return all;
-}
-
-/* Neighbours lie all over memory, and the work on a pair is shorter than the way there: what a neighbour brings is
- * asked for so many pairs ahead. */
+/* Neighbours lie all over memory, and the work on a pair is shorter than the way there: where that is beyond the
+ * processor's own cache, what a neighbour brings is asked for so many pairs ahead; `last` is the pair up to which. */
 enum { AHEAD = 16, LINE = 64 / sizeof(double) };
 
-static inline void fetch(const struct solver_upwind *work, const double *slope, size_t b)
+static inline void fetch(const struct solver_upwind *work, const double *slope, const struct group *group, size_t last)
 {
-    for (int i = 0; i < TENSOR; i += LINE) {
-        __builtin_prefetch(work->P + b * TENSOR + i);
-        __builtin_prefetch(slope + b * TENSOR + i);
+    for (size_t ab = group->row[0] + AHEAD; ab <= group->last[GROUP - 1] + AHEAD && ab <= last; ab++) {
+        size_t b = work->neighbour[ab];
+        for (int i = 0; i < TENSOR; i += LINE) {
+            __builtin_prefetch(work->P + b * TENSOR + i);
+            __builtin_prefetch(slope + b * TENSOR + i);
+        }
+        __builtin_prefetch(work->v + b * LANES);
+        __builtin_prefetch(work->X + b * LANES);
     }
-    __builtin_prefetch(work->v + b * LANES);
-    __builtin_prefetch(work->X + b * LANES);
 }
 
-/* `last`: pair up to which neighbours may be asked for. */
-static inline __attribute__((always_inline)) struct sums sum_pairs(const struct solver_upwind *work, size_t a,
-                                                                   size_t last, struct terms terms)
+/* What the pairs of a group have in common. */
+struct side {
+    wide X, x, v, slope[DIM];
+    struct impedances z;
+};
+
+static inline __attribute__((always_inline)) struct side
+own_side(const struct solver_upwind *work, const struct group *group, const double *x, const double *slope)
 {
-    struct pair_sums sums = {.volume = 0.0};
+    struct side side = {.x = gather(x, LANES, group->at), .v = gather(work->v, LANES, group->at)};
+    side.X = work->X != NULL ? gather(work->X, LANES, group->at) : side.x;
+    for (int I = 0; I < DIM; I++) {
+        side.slope[I] = gather(slope + I * LANES, TENSOR, group->at);
+    }
+    side.z = impedances(work, group->at);
+    return side;
+}
+
+static inline __attribute__((always_inline)) void add_pairs(const struct solver_upwind *work, const struct group *group,
+                                                            const struct pairs *pairs, struct terms terms,
+                                                            const struct side *own, const double *x,
+                                                            const double *slope, struct pair_sums *sums)
+{
+    struct pair pair = load_pair(work, pairs, terms.narrow);
+    const double *transposed[GROUP] = {NULL};
+    if (terms.transposed) {
+        weights_at(work->transposed, DIM, pairs, transposed);
+    }
+    bool placed = terms.frozen || terms.reconstruct || terms.volume; /* else X need not be there */
+    wide distance = placed ? gather(work->X, LANES, pairs->b) - own->X : (wide){0};
+    wide along = terms.frozen ? distance : gather(x, LANES, pairs->b) - own->x;
+    wide jump = gather(work->v, LANES, pairs->b) - own->v;
+    struct impedances z = terms.composite ? meet(own->z, impedances(work, pairs->b)) : own->z;
+    wide back = -0.5 * distance;
+    for (int I = 0; I < DIM; I++) {
+        wide D = terms.transposed ? weight(transposed, I) : pair.C.each[I];
+        sums->force[I] += gather(work->P + I * LANES, TENSOR, pairs->b) * D;
+        if (terms.reconstruct) {
+            jump += (gather(slope + I * LANES, TENSOR, pairs->b) + own->slope[I]) * spread(back, I);
+        }
+    }
+    add_fluxes(work, group, pairs, terms, jump, distance, along, pair.A, z, sums);
+}
+
+/* Sums of the pairs of each particle of a group. */
+static inline __attribute__((always_inline)) void sum_pairs(const struct solver_upwind *work, const struct group *group,
+                                                            size_t last, struct terms terms, struct sums of[GROUP])
+{
+    struct pair_sums sums = {.volume = {0}};
     const double *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
     const double *x = terms.frozen ? work->X : work->x;
-    const struct solver_material_constants *of_a = work->constants + a * work->stride;
-    struct impedances z = {of_a->zp, of_a->zs};
-    bool placed = terms.frozen || terms.reconstruct || terms.volume; /* else X need not be there */
-    vec X_a = placed ? load(work->X + a * LANES) : (vec){0};
-    vec x_a = load(x + a * LANES);
-    vec v_a = load(work->v + a * LANES);
-    struct tensor slope_a = load_tensor(slope + a * TENSOR);
-    for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
-        size_t b = work->neighbour[ab];
-        fetch(work, slope, work->neighbour[ab + AHEAD < last ? ab + AHEAD : last]);
-        struct pair pair = load_pair(work, ab, terms.narrow);
-        const double *P_b = work->P + b * TENSOR;
-        vec distance = placed ? load(work->X + b * LANES) - X_a : (vec){0};
-        vec along = terms.frozen ? distance : load(x + b * LANES) - x_a;
-        vec jump = load(work->v + b * LANES) - v_a;
-        if (terms.composite) {
-            z = pair_impedances(of_a, work->constants + b);
-        }
-        vec back = -0.5 * distance;
-        for (int I = 0; I < DIM; I++) {
-            vec D = terms.transposed ? splat(work->transposed[ab * DIM + (size_t)I]) : pair.C.each[I];
-            sums.force[I] += load(P_b + I * LANES) * D;
-            if (terms.reconstruct) {
-                jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * spread(back, I);
-            }
-        }
-        add_fluxes(work, a, b, terms, jump, distance, along, pair.A, z, &sums);
+    struct side own = own_side(work, group, x, slope);
+    if (work->far) {
+        fetch(work, slope, group, last);
     }
-    return combine(&sums, terms, z);
+    size_t k = 0;
+    for (; k < group->shortest; k++) {
+        struct pairs pairs = pairs_of(work, group, k, false);
+        add_pairs(work, group, &pairs, terms, &own, x, slope, &sums);
+    }
+    for (; GROUP > 1 && k < group->longest; k++) {
+        struct pairs pairs = pairs_of(work, group, k, true);
+        add_pairs(work, group, &pairs, terms, &own, x, slope, &sums);
+    }
+    combine(&sums, terms, own.z, of);
 }
 
 static inline __attribute__((always_inline)) void rates_with(const struct solver_upwind *work, size_t begin, size_t end,
                                                              struct terms terms)
 {
     size_t last = work->row[end] > 0 ? work->row[end] - 1 : 0;
-    for (size_t a = begin; a < end; a++) {
-        finish(work, a, sum_pairs(work, a, last, terms));
+    struct group group;
+    for (size_t a = begin; a < end; a += group.count) {
+        group = next_group(work, a, end);
+        struct sums sums[GROUP];
+        sum_pairs(work, &group, last, terms, sums);
+        for (int g = 0; g < GROUP; g++) {
+            finish(work, group.at[g], sums[g]);
+        }
     }
 }
 
@@ -376,9 +320,14 @@ static size_t first_broken(const struct solver_upwind *work, size_t begin, size_
     for (size_t a = begin; a < end; a++) {
         vec v = load(work->v + a * LANES);
         struct tensor F = load_tensor(work->F + a * TENSOR);
-        double J = work->J != NULL ? work->J[a] : determinant(F);
+        vec squares = v * v;
+        for (int I = 0; I < DIM; I++) {
+            squares += F.column[I] * F.column[I];
+        }
+        bool evolved = work->J != NULL && !work->constrained;
+        double J = evolved ? work->J[a] : work->frozen ? 1.0 : determinant(F);
         bool inverted = !work->frozen && !(J > 0.0);
-        if (inverted || !isfinite(J) || !isfinite(dot(v, v)) || !isfinite(contract(F, F))) {
+        if (inverted || !isfinite(J) || !isfinite(sum_of(squares))) {
             return a;
         }
     }

@@ -1,0 +1,169 @@
+/* The dissipation of upwind.h: fluxes across the pairs of a group, and what becomes of their sums. */
+#ifndef SOLVER_DIM_FLUXES_H
+#define SOLVER_DIM_FLUXES_H
+
+#include "solver/dim_pairs.h"
+
+/* Impedances of a pair: z v jumps in the acoustic Riemann problem of eq. 27, 28, with 2 z_a z_b / (z_a + z_b) where
+ * materials meet. */
+struct impedances {
+    wide p, s;
+};
+
+/* A constant of particles. */
+static inline __attribute__((always_inline)) wide constant(const struct solver_upwind *work, const double *of_first,
+                                                           const size_t at[GROUP])
+{
+    return gather_each(of_first, work->stride * (sizeof *work->constants / sizeof(double)), at);
+}
+
+static inline __attribute__((always_inline)) struct impedances impedances(const struct solver_upwind *work,
+                                                                          const size_t at[GROUP])
+{
+    return (struct impedances){.p = constant(work, &work->constants->zp, at),
+                               .s = constant(work, &work->constants->zs, at)};
+}
+
+static inline struct impedances meet(struct impedances a, struct impedances b)
+{
+    return (struct impedances){.p = 2.0 * a.p * b.p / (a.p + b.p), .s = 2.0 * a.s * b.s / (a.s + b.s)};
+}
+
+/* Of the particles of a group whose neighbour is of a material with the same volumetric stress; where materials meet
+ * it has a jump of its own. */
+static inline wide where_alike(const struct solver_upwind *work, const struct group *group, const struct pairs *pairs,
+                               wide flux)
+{
+    vec part[GROUP];
+    take_apart(flux, part);
+    for (int g = 0; g < GROUP; g++) {
+        bool alike = work->constants[group->at[g]].kappa == work->constants[pairs->b[g]].kappa;
+        part[g] = alike ? part[g] : (vec){0};
+    }
+    return join(part);
+}
+
+/* Reconstructed jump of the stress times the pair's distance, (P+ - P-) d (eq. 27, 34). */
+static inline wide traction_jump(const struct solver_upwind *work, const size_t a[GROUP], const size_t b[GROUP],
+                                 wide distance, bool reconstruct)
+{
+    wide traction = {0};
+    wide half = 0.5 * distance;
+    for (int I = 0; I < DIM; I++) {
+        const double *P = work->P + I * LANES;
+        wide jump = gather(P, TENSOR, b) - gather(P, TENSOR, a);
+        for (int K = 0; reconstruct && K < DIM; K++) {
+            const double *slopes = work->P_gradient + K * TENSOR + I * LANES;
+            wide slope = gather(slopes, (size_t)DIM * TENSOR, a) + gather(slopes, (size_t)DIM * TENSOR, b);
+            jump -= spread(half, K) * slope;
+        }
+        traction += jump * spread(distance, I);
+    }
+    return traction;
+}
+
+/* What the scene asks for, as constants where the sums are called, so that each combination is a loop of its own. */
+struct terms {
+    bool frozen, reconstruct, transposed, volume, whole, composite, narrow;
+};
+
+/* n (n . H^Ave N): what becomes of the unit vector N, not normalised, as the pair's area. */
+static inline __attribute__((always_inline)) wide pair_area(const struct solver_upwind *work, const size_t a[GROUP],
+                                                            const size_t b[GROUP], wide distance)
+{
+    wide area = {0};
+    wide half = 0.5 * distance;
+    for (int I = 0; I < DIM; I++) {
+        const double *cofactor = work->cofactor + I * LANES;
+        area += (gather(cofactor, TENSOR, a) + gather(cofactor, TENSOR, b)) * spread(half, I);
+    }
+    return area;
+}
+
+/* Sums over the neighbours, before what is the same for all of them is multiplied in. Components are summed apart as
+ * long as they may be: that is fewer shuffles, and no sum waits long for its last term. */
+struct pair_sums {
+    wide force[DIM]; /* sum_b P_b e_I D_I */
+    wide jumps;      /* sum_b A [v] */
+    wide normals;    /* sum_b A n (n . [v]) */
+    wide slopes;     /* sum_b A n^2 (slope of U' times N d), by components; n = n . H^Ave N here and below */
+    wide volume;     /* sum_b A n^2 [U'], not reconstructed, in every lane */
+    wide tractions;  /* sum_b A n (n . [P N]), by components */
+};
+
+static inline __attribute__((always_inline)) void add_volume_flux(const struct solver_upwind *work,
+                                                                  const struct group *group, const struct pairs *pairs,
+                                                                  struct terms terms, wide distance, wide along,
+                                                                  wide by_volume, struct pair_sums *sums)
+{
+    if (terms.whole) {
+        sums->tractions += by_volume * (along * traction_jump(work, group->at, pairs->b, distance, terms.reconstruct));
+        return;
+    }
+    sums->volume += by_volume * (gather_each(work->pressure, 1, pairs->b) - gather_each(work->pressure, 1, group->at));
+    if (terms.reconstruct) {
+        const double *slopes = work->pressure_gradient;
+        wide slope = gather(slopes, LANES, group->at) + gather(slopes, LANES, pairs->b);
+        sums->slopes += by_volume * (slope * distance);
+    }
+}
+
+/* Upwind fluxes across a pair, twice: of momentum, A S (p+ - p-) (eq. 27, 28), from the jump of velocity with the
+ * states reconstructed at mid-distance; n is the unit of `along`, x_b - x_a, which is not normalised: n (n . jump) =
+ * along (along . jump) / |along|^2. And of J (eq. 27, 28, 30, 33), times 2 z_p: A (n . (P+ - P-) N) (n . H^Ave N).
+ * Eq. 33 as printed has the sign that would feed energy in; this is that of eq. 30. A N stands for C_ab, as in the flux
+ * of p. By default only the volumetric part U'(J) H of the stress jumps: J is conjugate to it alone, so that without
+ * reconstruction the flux cannot feed energy in, and its gradient is a vector instead of a third-order tensor. */
+static inline __attribute__((always_inline)) void add_fluxes(const struct solver_upwind *work,
+                                                             const struct group *group, const struct pairs *pairs,
+                                                             struct terms terms, wide jump, wide distance, wide along,
+                                                             wide face, struct impedances z, struct pair_sums *sums)
+{
+    wide normal;
+    wide square;
+    wide by_normal; /* A / |along|^2 */
+    wide by_volume; /* A n^2; frozen: n = N, H = 1 */
+    spread_dots(along, jump, along, along, &normal, &square);
+    if (terms.volume && (!terms.frozen || terms.whole)) {
+        wide area = terms.frozen ? distance : pair_area(work, group->at, pairs->b, distance);
+        wide turned;
+        wide reference;
+        spread_dots(along, area, distance, distance, &turned, &reference);
+        wide share = face / (square * reference);
+        by_normal = share * reference;
+        by_volume = terms.whole ? share * turned : share * turned * turned;
+    } else {
+        by_normal = face / square;
+        by_volume = face;
+    }
+    sums->jumps += (terms.composite ? z.s * face : face) * jump;
+    sums->normals += (terms.composite ? (z.p - z.s) * normal * by_normal : normal * by_normal) * along;
+    if (terms.volume) {
+        by_volume = terms.composite ? where_alike(work, group, pairs, by_volume) : by_volume;
+        add_volume_flux(work, group, pairs, terms, distance, along, by_volume, sums);
+    }
+}
+static inline __attribute__((always_inline)) void combine(const struct pair_sums *sums, struct terms terms,
+                                                          struct impedances z, struct sums of[GROUP])
+{
+    wide force = sums->force[0];
+    for (int I = 1; I < DIM; I++) {
+        force += sums->force[I];
+    }
+    wide dissipation = terms.composite ? sums->jumps + sums->normals : z.s * sums->jumps + (z.p - z.s) * sums->normals;
+    vec forces[GROUP];
+    vec dissipations[GROUP];
+    take_apart(force, forces);
+    take_apart(dissipation, dissipations);
+    for (int g = 0; g < GROUP; g++) {
+        of[g] = (struct sums){.force = forces[g], .dissipation = dissipations[g], .volume = sums->volume[g * LANES]};
+    }
+    if (terms.volume) {
+        wide by_component = terms.whole ? sums->tractions : -0.5 * sums->slopes;
+        for (int i = 0; i < WIDTH; i++) { /* lanes beyond DIM are zero */
+            of[i / LANES].volume += by_component[i];
+        }
+    }
+}
+
+#endif
