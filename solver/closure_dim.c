@@ -40,7 +40,7 @@ static inline vec step_of(const double *u, size_t a, size_t b, vec half)
     vec step = load(of_a) - load(of_b);
     for (int i = 0; i < DIM; i++) {
         vec beta = load(of_a + (i + 1) * LANES) + load(of_b + (i + 1) * LANES);
-        step += spread(half, i) * beta;
+        step += splat(half[i]) * beta;
     }
     return step;
 }
@@ -92,7 +92,7 @@ static inline void image_of(const struct solver_closure *of, const double *u, si
         vec step = of->weight[ab] * step_of(u, a, b, half);
         sum[0] += step;
         for (int i = 0; i < DIM; i++) {
-            sum[i + 1] += spread(half, i) * step;
+            sum[i + 1] += splat(half[i]) * step;
         }
     }
 }
@@ -218,7 +218,7 @@ static void residuals(const struct solver_closure *of, const double *area, const
             }
             sum[0] -= C;
             for (int i = 0; i < DIM; i++) {
-                sum[i + 1] -= spread(half, i) * C;
+                sum[i + 1] -= splat(half[i]) * C;
             }
         }
         for (int i = 0; i < WIDTH; i++) {
