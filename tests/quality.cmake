@@ -10,7 +10,7 @@ assay_test(quality-mustfail LABELS mustfail COMMAND ${quality}/mustfail.sh ${CMA
 # valgrind, which needs a build without AVX-512.
 assay_test(quality-clang LABELS quality TIMEOUT 1800 CORES ${cores}
   COMMAND ${quality}/build.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/clang debug -DCMAKE_C_COMPILER=clang-14
-  "-DCMAKE_C_FLAGS_DEBUG=-Og -g1 -gdwarf-4") # lines alone, for memcheck's reports
+  "-DASSAY_DEBUG=-Og -g1 -gdwarf-4") # lines alone, for memcheck's reports
 assay_test(quality-tidy LABELS quality TIMEOUT 1800 CORES ${cores}
   COMMAND ${quality}/tidy.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/clang)
 assay_test(quality-valgrind LABELS quality TIMEOUT 1800 CORES ${cores}

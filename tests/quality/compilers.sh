@@ -5,16 +5,16 @@
 set -euo pipefail
 source=$1 build=$2 clang=$3
 # Each in about a second. Worst difference over its bound, clang's and that of -O0: swinging-cube 0.058, 0.058,
-# elastic-cable 4.7e-6, 0.61, bimaterial-wave 2.5e-6, 0.11, rotating-plate 0.095, 0.078, rod-impact 0, 0.028; the others
+# elastic-cable 4.7e-6, 0.64, bimaterial-wave 2.5e-6, 0.11, rotating-plate 0.095, 0.085, rod-impact 0, 0.028; the others
 # below 0.024. Left out: cantilever-plate (a minute), composite-rings (as rings), and taylor-bar, whose stress is a
 # difference of terms as large as the moduli, which the derivation does not know: 1.03, 0.91.
 scenes=(swinging-cube bimaterial-wave elastic-cable plastic-wave manufactured-waves breathing-cylinder breathing-sphere
   rod-impact rings rotating-plate)
 cd -- "$source"
-cmake --preset debug -B "$build" -DCMAKE_C_FLAGS_DEBUG=-O0 >"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
+cmake --preset debug -B "$build" -DASSAY_DEBUG=-O0 >"$build.log" 2>&1 || { cat "$build.log"; exit 1; }
 ninja -C "$build" assay >"$build.log" 2>&1 || { grep -v '^\[' "$build.log"; exit 1; }
 # Builds that are not what they are named would prove nothing.
-grep -q -- ' -O0 ' "$build/compile_commands.json" || { echo "$build is optimised"; exit 1; }
+grep -q -- ' -O0 .*assay_solver\.dir/solver/run\.c\.o' "$build/compile_commands.json" || { echo "$build is optimised"; exit 1; }
 readelf -p .comment "$clang/assay" | grep -q clang || { echo "$clang is not clang's"; exit 1; }
 out=$(mktemp -d)
 trap 'rm -rf -- "$out"' EXIT

@@ -85,7 +85,7 @@ warn='add_compile_options(-g -gdwarf-4 -Wall -Wextra -Werror)'
 # shellcheck disable=SC2016 # a variable of CMake
 sanitize='add_compile_options(-g -fsanitize=${ASSAY_SANITIZE} -fno-sanitize-recover=all)
 add_link_options(-fsanitize=${ASSAY_SANITIZE})'
-overrun='char *p = malloc((size_t)n); p[0] = 0; int r = p[n]; free(p); return r * 0;'
+overrun='volatile char *p = malloc((size_t)n); p[0] = 0; int r = p[n]; free((void *)p); return r * 0;' # read at any -O
 
 project "$warn" 'int unused = n; return 0;'
 ends 1 "a warning" 'unused variable' build "$PWD" "$PWD/build" debug -DCMAKE_C_COMPILER=clang-14

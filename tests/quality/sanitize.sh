@@ -6,7 +6,7 @@ set -euo pipefail
 source=$1 build=$2
 # Reports need lines, and no more of what debuggers want, which would take half of the time to link. One path for the
 # hot loops, as in the debug build: they are one text.
-settings=(-DCMAKE_C_FLAGS_DEBUG='-Og -g1')
+settings=(-DASSAY_DEBUG='-Og -g1')
 [[ $(uname -m) != x86_64 ]] || settings+=(-DASSAY_ARCH=x86-64-v3)
 "$(dirname -- "$0")/build.sh" "$source" "$build" sanitize "${settings[@]}"
 for program in "$build"/tests/test_*; do
