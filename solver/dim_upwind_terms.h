@@ -35,12 +35,15 @@ static inline bool turns(const struct solver_upwind *work)
     return work->evolves_J && (!work->frozen || work->whole_jump);
 }
 
-static inline void volume_terms(const struct solver_upwind *work, double pairs, struct solver_cost_terms *terms)
+static inline void volume_terms(const struct solver_upwind *work, double pairs, double particles,
+                                struct solver_cost_terms *terms)
 {
-    double area = (work->frozen ? 0.0 : 4.0 * FLOPS_TENSOR) + FLOPS_SPREAD_DOTS + 5.0 * LANES;
+    double present = work->frozen ? 0.0 : LANES + 6.0 + (work->stiffness != NULL ? 1.0 : 0.0); /* impedance */
+    double area = (work->frozen ? 0.0 : 4.0 * FLOPS_TENSOR) + FLOPS_SPREAD_DOTS + 6.0 * LANES + present;
     double jump = work->whole_jump ? 3.0 * FLOPS_TENSOR + FLOPS_DOT + 2.0 : 3.0;
     double slope = work->whole_jump ? DIM * (3.0 * FLOPS_TENSOR + DIM) : 4.0 * LANES;
-    solver_cost_term(terms, "dissipation of J", 2, pairs * ((turns(work) ? area : 0.0) + jump));
+    solver_cost_term(terms, "dissipation of J", 2,
+                     pairs * ((turns(work) ? area : 0.0) + jump) + (work->frozen ? 0.0 : 4.0 * particles));
     solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? pairs * slope : 0.0);
 }
 
@@ -57,7 +60,7 @@ static inline void rate_terms(const struct solver_upwind *work, size_t count, st
     solver_cost_term(terms, "impedances where materials meet", 2,
                      work->stride != 0 ? pairs * (9.0 + 2.0 * LANES) : 0.0);
     if (work->evolves_J) {
-        volume_terms(work, pairs, terms);
+        volume_terms(work, pairs, particles, terms);
     }
 }
 
@@ -91,6 +94,9 @@ static inline void particle_terms(const struct solver_upwind *work, size_t count
     }
     if (work->pressure != NULL) {
         solver_cost_term(terms, "U'(J)", 0, particles * material->volumetric_flops);
+    }
+    if (work->stiffness != NULL) {
+        solver_cost_term(terms, "U''(J)", 0, particles * material->stiffness_flops);
     }
     if (work->lost != NULL) {
         solver_cost_term(terms, "power lost", 0, particles * flops_of_lost(work));

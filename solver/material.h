@@ -69,9 +69,11 @@ struct solver_material {
     /* Volumetric stress U'(J) [Pa] of particles begin to end - 1. */
     void (*volumetric_range)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                              const double *J, double *pressure);
+    /* U''(J) / kappa of particles begin to end - 1, 0 where it is below that. NULL: it is 1 throughout. */
+    void (*stiffness_range)(size_t begin, size_t end, const double *J, double *stiffness);
     /* Operations of one particle's (cost.h), with H and J of its own or those of F. */
     int (*stress_flops)(bool H, bool J);
-    int volumetric_flops, fastest_flops, energy_flops;
+    int volumetric_flops, stiffness_flops, fastest_flops, energy_flops;
     /* An upper bound, above zero, of the wave speeds [m/s] in all directions over particles begin to end - 1; exact at
      * rest. */
     double (*fastest)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,

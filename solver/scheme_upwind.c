@@ -161,6 +161,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     size_t vector = system->loops->lanes;
     size_t tensor = dim * vector;
     bool pressure = work->evolves_J && !work->whole_jump && system->rates == NULL;
+    bool stiffens = work->evolves_J && system->rates == NULL && work->material->stiffness_range != NULL;
     bool slopes = work->reconstruct && system->rates == NULL;
     bool placed = system->rates == NULL && (work->frozen || work->reconstruct || work->evolves_J);
     size_t remembered = work->hardening != NULL ? work->material->flow->width : 0;
@@ -174,6 +175,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
         {"P", tensor, false, &work->P, NULL, 0},
         {"cof F", work->evolves_J && !work->evolves_H && !work->frozen ? tensor : 0, false, &work->cofactor, NULL, 0},
         {"U'(J)", pressure ? 1 : 0, false, &work->pressure, NULL, 0},
+        {"U''(J) / kappa", stiffens ? 1 : 0, false, &work->stiffness, NULL, 0},
         {"grad U'(J)", pressure && slopes ? vector : 0, false, &work->pressure_gradient, NULL, 0},
         {"grad P", work->evolves_J && work->whole_jump && slopes ? dim * tensor : 0, false, &work->P_gradient, NULL, 0},
         {"grad v", slopes && work->least_squares != NULL ? tensor : 0, false, &work->v_gradient, NULL, 0},

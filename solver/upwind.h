@@ -39,6 +39,7 @@ struct solver_upwind {
     double *cofactor;             /* H, or cof F where H is not evolved but the equation of J needs it */
     double *v_gradient;           /* tensor: least-squares gradient of v; NULL: F_rate serves */
     double *pressure;             /* [count] U'(J); for the dissipation of J by its jump */
+    double *stiffness;            /* [count] U''(J) / kappa, not below 0; NULL: it is 1 */
     double *pressure_gradient;    /* vector */
     double *P_gradient;           /* [count][DIM (derivative)] tensors; for the dissipation of J by the jump of P */
     double *lost;                 /* [count][2] what dissipation takes, as a power over the linear momentum [W], and the

@@ -142,13 +142,39 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
  * materials meet. */
 struct impedances {
     double p, s;
+    double shear, bulk; /* shares of mu and kappa in the square of z_p, at rest */
 };
 
-static inline struct impedances pair_impedances(const struct solver_material_constants *of_a,
-                                                const struct solver_material_constants *of_b)
+static inline void set_pair(const struct solver_material_constants *of_a, const struct solver_material_constants *of_b,
+                            struct impedances *z)
 {
-    return (struct impedances){.p = 2.0 * of_a->zp * of_b->zp / (of_a->zp + of_b->zp),
-                               .s = 2.0 * of_a->zs * of_b->zs / (of_a->zs + of_b->zs)};
+    z->p = 2.0 * of_a->zp * of_b->zp / (of_a->zp + of_b->zp);
+    z->s = 2.0 * of_a->zs * of_b->zs / (of_a->zs + of_b->zs);
+}
+
+static inline void set_shares(const struct solver_material_constants *material, struct impedances *z)
+{
+    double modulus = material->zp * material->cp;
+    z->shear = 4.0 / 3.0 * material->mu / modulus;
+    z->bulk = material->kappa / modulus;
+}
+
+/* z_p at rest over that of the present state, in which the volume has U''(J) t^2 of rho c_p^2, t = n . H^Ave N;
+ * `square` is t^2. The flux of J grows with U'' t^2 too: over the impedance at rest it would outrun the waves of a body
+ * that is stretched or compressed, and with them the step of eq. 41. Of two particles the stiffer one counts. Where U'
+ * falls with J, as beyond J = e with Hencky's model, no wave carries its jump. */
+static inline double softening(const struct solver_upwind *work, size_t a, size_t b, struct impedances z, double square)
+{
+    if (work->stiffness != NULL) {
+        double of_a = work->stiffness[a];
+        double of_b = work->stiffness[b];
+        if (fmin(of_a, of_b) == 0.0) {
+            return 0.0;
+        }
+        square *= fmax(of_a, of_b);
+    }
+    double stiffened = sqrt(z.shear + z.bulk * square);
+    return 1.0 / stiffened;
 }
 
 /* Reconstructed jump of the stress times the pair's distance, (P+ - P-) d (eq. 27, 34). */
@@ -211,16 +237,20 @@ static inline __attribute__((always_inline)) void add_fluxes(const struct solver
     vec normal;
     vec square;
     vec by_normal; /* A / |along|^2 */
-    vec by_volume; /* A n^2; frozen: n = N, H = 1 */
+    vec by_volume; /* A n^2, times the softening; frozen: n = N, H = 1 */
     spread_dots(along, jump, along, along, &normal, &square);
     if (terms.volume && (!terms.frozen || terms.whole)) {
         vec area = terms.frozen ? distance : pair_area(work, a, b, distance);
         vec turned;
         vec reference;
         spread_dots(along, area, distance, distance, &turned, &reference);
-        vec share = face / (square * reference);
+        vec per_lengths = splat(1.0) / (square * reference);
+        vec share = face * per_lengths;
         by_normal = share * reference;
         by_volume = share * turned;
+        if (!terms.frozen) {
+            by_volume *= splat(softening(work, a, b, z, turned[0] * turned[0] * per_lengths[0]));
+        }
         if (terms.whole) {
             double flux = by_volume[0] * dot(along, traction_jump(work, a, b, distance, terms.reconstruct));
             sums->volume += alike ? flux : 0.0;
@@ -277,8 +307,11 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
     const double *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
     const double *x = terms.frozen ? work->X : work->x;
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
-    struct impedances z = {of_a->zp, of_a->zs};
+    struct impedances z = {of_a->zp, of_a->zs, 0.0, 0.0};
     bool placed = terms.frozen || terms.reconstruct || terms.volume; /* else X need not be there */
+    if (terms.volume && !terms.frozen) {
+        set_shares(of_a, &z);
+    }
     vec X_a = placed ? load(work->X + a * LANES) : (vec){0};
     vec x_a = load(x + a * LANES);
     vec v_a = load(work->v + a * LANES);
@@ -292,7 +325,7 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
         vec along = terms.frozen ? distance : load(x + b * LANES) - x_a;
         vec jump = load(work->v + b * LANES) - v_a;
         if (terms.composite) {
-            z = pair_impedances(of_a, work->constants + b);
+            set_pair(of_a, work->constants + b, &z);
         }
         vec back = -0.5 * distance;
         for (int I = 0; I < DIM; I++) {
@@ -361,6 +394,9 @@ static void stresses(const struct solver_upwind *work, size_t begin, size_t end)
     }
     if (work->pressure != NULL) {
         work->material->volumetric_range(work->constants, work->stride, begin, end, work->J, work->pressure);
+    }
+    if (work->stiffness != NULL) {
+        work->material->stiffness_range(begin, end, work->J, work->stiffness);
     }
     if (work->flown != NULL) {
         work->material->flow->stress_range(work->constants, work->stride, work->hardening, begin, end, work->F,
