@@ -61,6 +61,9 @@ bool verify_extreme_contrast(const struct verify_extremes *in, struct solver_err
             struct verify_extreme_row row = {
                 .unit = "-", .least = down ? -INFINITY : schemes[i].up, .most = down ? schemes[i].down : INFINITY};
             (void)snprintf(row.what, sizeof row.what, "%s", schemes[i].what);
+            if (!verify_extreme_asked(in, row.what)) {
+                continue;
+            }
             (void)snprintf(row.quantity, sizeof row.quantity, "%s of E and rho",
                            down ? "smallest jump" : "largest jump");
             verify_extreme_bisect(right_at, &bar, down ? 0.99 : 1.01, down ? 1e-6 : 1e6, 0.1, &row.value, &row.fails,

@@ -87,6 +87,11 @@ bool verify_extreme_holds(const struct verify_extreme_row *row)
     return row->value >= row->least && row->value <= row->most;
 }
 
+bool verify_extreme_asked(const struct verify_extremes *in, const char *what)
+{
+    return in->rows == NULL || strstr(what, in->rows) != NULL;
+}
+
 void verify_extreme_told(const struct verify_extremes *in, const struct verify_extreme_row *row)
 {
     in->take(in->context, in->extreme, row);
