@@ -299,6 +299,24 @@ static inline void fetch(const struct solver_upwind *work, const double *slope, 
     __builtin_prefetch(work->X + b * LANES);
 }
 
+static inline bool differ(const struct solver_material_constants *of_a, const struct solver_material_constants *of_b)
+{
+    return of_a->zp != of_b->zp || of_a->zs != of_b->zs;
+}
+
+/* Jump of velocity where materials meet: slopes jump there, and that of a particle on the interface is a mean of both
+ * sides', of the softer one's size. The side whose slope leaves the smaller jump reconstructs both states. */
+static inline vec one_sided_jump(vec difference, const double *slope_b, struct tensor slope_a, vec distance)
+{
+    vec by_a = difference;
+    vec by_b = difference;
+    for (int I = 0; I < DIM; I++) {
+        by_a -= slope_a.column[I] * spread(distance, I);
+        by_b -= load(slope_b + I * LANES) * spread(distance, I);
+    }
+    return dot(by_a, by_a) < dot(by_b, by_b) ? by_a : by_b;
+}
+
 /* `last`: pair up to which neighbours may be asked for. */
 static inline __attribute__((always_inline)) struct sums sum_pairs(const struct solver_upwind *work, size_t a,
                                                                    size_t last, struct terms terms)
@@ -327,6 +345,7 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
         if (terms.composite) {
             set_pair(of_a, work->constants + b, &z);
         }
+        vec difference = jump;
         vec back = -0.5 * distance;
         for (int I = 0; I < DIM; I++) {
             vec D = terms.transposed ? splat(work->transposed[ab * DIM + (size_t)I]) : pair.C.each[I];
@@ -334,6 +353,9 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
             if (terms.reconstruct) {
                 jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * spread(back, I);
             }
+        }
+        if (terms.composite && terms.reconstruct && differ(of_a, work->constants + b)) {
+            jump = one_sided_jump(difference, slope + b * TENSOR, slope_a, distance);
         }
         add_fluxes(work, a, b, terms, jump, distance, along, pair.A, z, &sums);
     }
