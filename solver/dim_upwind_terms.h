@@ -35,32 +35,49 @@ static inline bool turns(const struct solver_upwind *work)
     return work->evolves_J && (!work->frozen || work->whole_jump);
 }
 
-static inline void volume_terms(const struct solver_upwind *work, double pairs, double particles,
+/* How many pairs there are of two materials. */
+static inline double pairs_that_meet(const struct solver_upwind *work, size_t count)
+{
+    size_t meet = 0;
+    for (size_t a = 0; a < count && work->stride != 0; a++) {
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            meet += !solver_material_same(work->constants + a, work->constants + work->neighbour[ab]);
+        }
+    }
+    return (double)meet;
+}
+
+/* `meet`: pairs of two materials, between which only the jump of a whole stress is computed. */
+static inline void volume_terms(const struct solver_upwind *work, double pairs, double meet, double particles,
                                 struct solver_cost_terms *terms)
 {
+    double jumping = work->whole_jump ? pairs : pairs - meet;
     double present = work->frozen ? 0.0 : LANES + 6.0 + (work->stiffness != NULL ? 1.0 : 0.0); /* impedance */
     double area = (work->frozen ? 0.0 : 4.0 * FLOPS_TENSOR) + FLOPS_SPREAD_DOTS + 6.0 * LANES + present;
     double jump = work->whole_jump ? 3.0 * FLOPS_TENSOR + FLOPS_DOT + 2.0 : 3.0;
     double slope = work->whole_jump ? DIM * (3.0 * FLOPS_TENSOR + DIM) : 4.0 * LANES;
     solver_cost_term(terms, "dissipation of J", 2,
-                     pairs * ((turns(work) ? area : 0.0) + jump) + (work->frozen ? 0.0 : 4.0 * particles));
-    solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? pairs * slope : 0.0);
+                     pairs * (turns(work) ? area : 0.0) + jumping * jump + (work->frozen ? 0.0 : 4.0 * particles));
+    solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? jumping * slope : 0.0);
 }
 
 static inline void rate_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
 {
     double pairs = (double)work->row[count];
     double particles = (double)count;
+    double meet = pairs_that_meet(work, count);
     double vectors = 2.0 + (work->X != NULL ? 1.0 : 0.0) + (work->frozen ? 0.0 : 1.0); /* jump, back, distance, along */
     double flux = FLOPS_SPREAD_DOTS + (turns(work) ? 5.0 : 6.0) * LANES;
     double sum = (work->stride != 0 ? LANES : 3.0 * LANES + 1.0) + 2.0 * DIM;
     solver_cost_term(terms, "internal force", 2, pairs * FLOPS_ADD_SCALED + particles * (DIM - 1) * LANES);
     solver_cost_term(terms, "dissipation of p", 2, pairs * (vectors * LANES + flux) + particles * sum);
     solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * 3.0 * FLOPS_TENSOR : 0.0);
+    solver_cost_term(terms, "reconstruction where materials meet", 2,
+                     work->reconstruct ? meet * (4.0 * FLOPS_TENSOR + 2.0 * FLOPS_DOT) : 0.0);
     solver_cost_term(terms, "impedances where materials meet", 2,
                      work->stride != 0 ? pairs * (9.0 + 2.0 * LANES) : 0.0);
     if (work->evolves_J) {
-        volume_terms(work, pairs, particles, terms);
+        volume_terms(work, pairs, meet, particles, terms);
     }
 }
 

@@ -4,11 +4,6 @@
 
 #include <stdlib.h>
 
-static bool same(const struct solver_material_constants *a, const struct solver_material_constants *b)
-{
-    return a->rho == b->rho && a->mu == b->mu && a->kappa == b->kappa;
-}
-
 /* How many particles of each plane differ from their neighbours before it, along one axis. */
 static void count_differing(const struct solver_cloud *cloud, const struct solver_material_constants *constants,
                             const uint32_t *particle_at, size_t axis, size_t *differing)
@@ -21,7 +16,7 @@ static void count_differing(const struct solver_cloud *cloud, const struct solve
         for (size_t i = 0; i < dim; i++) {
             home += site[i] * stride[i];
         }
-        if (site[axis] > 0 && !same(&constants[a], &constants[particle_at[home - stride[axis]]])) {
+        if (site[axis] > 0 && !solver_material_same(&constants[a], &constants[particle_at[home - stride[axis]]])) {
             differing[site[axis]]++;
         }
     }

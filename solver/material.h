@@ -23,6 +23,12 @@ struct solver_material_constants {
 /* From Young's modulus [Pa], Poisson's ratio in (-1, 0.5) and density [kg/m^3]. */
 struct solver_material_constants solver_material_constants(double E, double nu, double rho);
 
+static inline bool solver_material_same(const struct solver_material_constants *a,
+                                        const struct solver_material_constants *b)
+{
+    return a->rho == b->rho && a->mu == b->mu && a->kappa == b->kappa;
+}
+
 /* Plastic flow. What a particle remembers are `width` numbers, all zero in the virgin material: the equivalent plastic
  * strain, then the components of the inverse plastic right Cauchy-Green tensor less the identity, Cp^-1 - 1: xx, zz in
  * 1D (yy is zz); xx, yy, xy, zz in 2D; xx, yy, zz, xy, yz, zx in 3D. With none of it, stresses and energies are those

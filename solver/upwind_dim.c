@@ -233,7 +233,7 @@ static inline __attribute__((always_inline)) void add_fluxes(const struct solver
                                                              vec face, struct impedances z, struct pair_sums *sums)
 {
     bool alike = !terms.composite || /* where materials meet the volumetric stress has a jump of its own */
-                 work->constants[a].kappa == work->constants[b].kappa;
+                 solver_material_same(work->constants + a, work->constants + b);
     vec normal;
     vec square;
     vec by_normal; /* A / |along|^2 */
@@ -299,11 +299,6 @@ static inline void fetch(const struct solver_upwind *work, const double *slope, 
     __builtin_prefetch(work->X + b * LANES);
 }
 
-static inline bool differ(const struct solver_material_constants *of_a, const struct solver_material_constants *of_b)
-{
-    return of_a->zp != of_b->zp || of_a->zs != of_b->zs;
-}
-
 /* Jump of velocity where materials meet: slopes jump there, and that of a particle on the interface is a mean of both
  * sides', of the softer one's size. The side whose slope leaves the smaller jump reconstructs both states. */
 static inline vec one_sided_jump(vec difference, const double *slope_b, struct tensor slope_a, vec distance)
@@ -354,7 +349,7 @@ static inline __attribute__((always_inline)) struct sums sum_pairs(const struct 
                 jump += (load(slope + b * TENSOR + I * LANES) + slope_a.column[I]) * spread(back, I);
             }
         }
-        if (terms.composite && terms.reconstruct && differ(of_a, work->constants + b)) {
+        if (terms.composite && terms.reconstruct && !solver_material_same(of_a, work->constants + b)) {
             jump = one_sided_jump(difference, slope + b * TENSOR, slope_a, distance);
         }
         add_fluxes(work, a, b, terms, jump, distance, along, pair.A, z, &sums);
