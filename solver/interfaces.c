@@ -13,7 +13,7 @@ static void count_differing(const struct solver_cloud *cloud, const struct solve
     for (size_t a = 0; a < cloud->count; a++) {
         const uint32_t *site = cloud->site + a * dim;
         size_t home = 0;
-        for (size_t i = 0; i < dim; i++) {
+        for (size_t i = 0; i < 3 && i < dim; i++) {
             home += site[i] * stride[i];
         }
         if (site[axis] > 0 && !solver_material_same(&constants[a], &constants[particle_at[home - stride[axis]]])) {

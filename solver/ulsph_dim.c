@@ -174,7 +174,7 @@ static inline bool same_phase(const struct solver_ulsph *work, size_t a, size_t 
 {
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
     const struct solver_material_constants *of_b = work->constants + b * work->stride;
-    return work->stride == 0 || solver_material_same(of_a, of_b);
+    return work->stride == 0 || (of_a->rho == of_b->rho && of_a->kappa == of_b->kappa && of_a->mu == of_b->mu);
 }
 
 /* Rates of density and deviatoric stress from the gradient of the transport velocity (eq. 27, 6, 7). */

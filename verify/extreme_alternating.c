@@ -112,6 +112,10 @@ bool verify_extreme_alternating(const struct verify_extremes *in, struct solver_
         {"upwind, first order", "scheme=upwind evolved=pF reconstruction=none", DIES, {1.0, 0.8, 1.25}},
         {"jst, 1/64", "scheme=jst evolved=pF", DIES, {1.0, 0.8, 1.25}},
         {"jst, no dissipation", "scheme=jst evolved=pF jst.kappa4=0", STAYS, {1.0, 0.8, 1.25}},
+        {"jst sph, no dissipation",
+         "scheme=jst evolved=pF jst.kappa4=0 stencil=sph support=2",
+         STAYS,
+         {1.0, 0.8, 1.25}},
         {"ulsph, R and TIC", ULSPH, DIES, {1.0, 0.91, 1.09}}, /* it starts from strains up to 0.1 */
         {"ulsph, TIC alone", ULSPH BARE "ulsph.tension=control", STAYS, {1.0, 1.09}},
         {"ulsph, neither", ULSPH BARE "ulsph.tension=none", GROWS, {1.09}},
