@@ -125,6 +125,8 @@ void solver_cloud_arrays(const struct solver_cloud *cloud, struct solver_cost_ar
     solver_cost_array(arrays, group, "tags", cloud->tags, count, sizeof *cloud->tags);
     solver_cost_array(arrays, group, "bodies", cloud->body, count, sizeof *cloud->body);
     solver_cost_array(arrays, group, "lattice sites", cloud->site, count * dim, sizeof *cloud->site);
+    solver_cost_array(arrays, group, "interfaces", cloud->interface,
+                      (size_t)cloud->points[0] + cloud->points[1] + cloud->points[2], sizeof *cloud->interface);
     solver_cost_array(arrays, group, "mirror images", cloud->image, cloud->wall_count, sizeof *cloud->image);
     solver_cost_array(arrays, group, "face points", cloud->face_point, cloud->face_point_count,
                       sizeof *cloud->face_point);
@@ -143,6 +145,7 @@ void solver_cloud_free(struct solver_cloud *cloud)
     free(cloud->tags);
     free(cloud->body);
     free(cloud->site);
+    free(cloud->interface);
     free(cloud->face_point);
     free(cloud->image);
     free(cloud->cell);

@@ -53,8 +53,10 @@ struct solver_cloud {
     struct solver_face_point *face_point; /* [face_point_count] */
     uint32_t points[3];                   /* particles along each axis of the lattice, with walls; 0: no lattice */
     uint32_t *site;                       /* [count][dim] lattice indices of each particle; NULL: no lattice */
-    uint32_t *image; /* [wall_count] particle of the body of which each particle of a wall is the mirror image;
-                        NULL unless asked for */
+    uint8_t *interface; /* [sum of points] whether materials meet on a plane of the lattice, along each axis after the
+                           other (interfaces.h); NULL: nowhere, or nobody has looked */
+    uint32_t *image;    /* [wall_count] particle of the body of which each particle of a wall is the mirror image;
+                           NULL unless asked for */
     struct solver_symmetry *symmetry; /* NULL, or a part stands for the body, and "walls" are its images (symmetry.h) */
     size_t cell_count;
     uint32_t *cell;                       /* [cell_count][2^dim] particles of each lattice cell, in VTK's order for

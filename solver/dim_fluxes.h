@@ -4,10 +4,13 @@
 
 #include "solver/dim_pairs.h"
 
+#include <math.h>
+
 /* Impedances of a pair: z v jumps in the acoustic Riemann problem of eq. 27, 28, with 2 z_a z_b / (z_a + z_b) where
  * materials meet. */
 struct impedances {
     wide p, s;
+    double shear[GROUP], bulk[GROUP]; /* shares of mu and kappa in the square of z_p, at rest */
 };
 
 /* A constant of particles. */
@@ -17,27 +20,65 @@ static inline __attribute__((always_inline)) wide constant(const struct solver_u
     return gather_each(of_first, work->stride * (sizeof *work->constants / sizeof(double)), at);
 }
 
+/* Of particles; with the shares if `shares`. */
 static inline __attribute__((always_inline)) struct impedances impedances(const struct solver_upwind *work,
-                                                                          const size_t at[GROUP])
+                                                                          const size_t at[GROUP], bool shares)
 {
-    return (struct impedances){.p = constant(work, &work->constants->zp, at),
-                               .s = constant(work, &work->constants->zs, at)};
+    struct impedances z = {.p = constant(work, &work->constants->zp, at),
+                           .s = constant(work, &work->constants->zs, at)};
+    for (int g = 0; shares && g < GROUP; g++) {
+        const struct solver_material_constants *of = work->constants + at[g] * work->stride;
+        double modulus = of->zp * of->cp;
+        z.shear[g] = 4.0 / 3.0 * of->mu / modulus;
+        z.bulk[g] = of->kappa / modulus;
+    }
+    return z;
 }
 
-static inline struct impedances meet(struct impedances a, struct impedances b)
+/* The shares are of `a`. */
+static inline __attribute__((always_inline)) struct impedances meet(struct impedances a, struct impedances b)
 {
-    return (struct impedances){.p = 2.0 * a.p * b.p / (a.p + b.p), .s = 2.0 * a.s * b.s / (a.s + b.s)};
+    struct impedances z = a;
+    z.p = 2.0 * a.p * b.p / (a.p + b.p);
+    z.s = 2.0 * a.s * b.s / (a.s + b.s);
+    return z;
 }
 
-/* Of the particles of a group whose neighbour is of a material with the same volumetric stress; where materials meet
- * it has a jump of its own. */
+/* z_p at rest over that of the present state, in which the volume has U''(J) t^2 of rho c_p^2; t^2 = (n . H^Ave N)^2 is
+ * the square of `turned` over `lengths`. The flux of J grows with U'' t^2 too: over the impedance at rest it would
+ * outrun the waves of a body that is stretched or compressed, and with them the step of eq. 41. Of two particles the
+ * stiffer one counts. Where U' falls with J, as beyond J = e with Hencky's model, no wave carries its jump. */
+static inline __attribute__((always_inline)) wide softening(const struct solver_upwind *work, const struct group *group,
+                                                            const struct pairs *pairs, const struct impedances *z,
+                                                            wide turned, wide lengths)
+{
+    double each[GROUP];
+    for (int g = 0; g < GROUP; g++) {
+        double t = turned[g * LANES];
+        double of_lengths = lengths[g * LANES];
+        double bulk = z->bulk[g];
+        bool carried = true;
+        if (work->stiffness != NULL) {
+            double of_a = (double)work->stiffness[group->at[g]];
+            double of_b = (double)work->stiffness[pairs->b[g]];
+            carried = of_a > 0.0 && of_b > 0.0;
+            bulk *= of_a > of_b ? of_a : of_b;
+        }
+        double softened = sqrt(of_lengths / (z->shear[g] * of_lengths + bulk * (t * t)));
+        each[g] = carried ? softened : 0.0;
+    }
+    return join_each(each);
+}
+
+/* Of the particles of a group whose neighbour is of the same material; where materials meet the volumetric stress has a
+ * jump of its own. */
 static inline wide where_alike(const struct solver_upwind *work, const struct group *group, const struct pairs *pairs,
                                wide flux)
 {
     vec part[GROUP];
     take_apart(flux, part);
     for (int g = 0; g < GROUP; g++) {
-        bool alike = work->constants[group->at[g]].kappa == work->constants[pairs->b[g]].kappa;
+        bool alike = solver_material_same(work->constants + group->at[g], work->constants + pairs->b[g]);
         part[g] = alike ? part[g] : (vec){0};
     }
     return join(part);
@@ -122,16 +163,20 @@ static inline __attribute__((always_inline)) void add_fluxes(const struct solver
     wide normal;
     wide square;
     wide by_normal; /* A / |along|^2 */
-    wide by_volume; /* A n^2; frozen: n = N, H = 1 */
+    wide by_volume; /* A n^2, times the softening; frozen: n = N, H = 1 */
     spread_dots(along, jump, along, along, &normal, &square);
     if (terms.volume && (!terms.frozen || terms.whole)) {
         wide area = terms.frozen ? distance : pair_area(work, group->at, pairs->b, distance);
         wide turned;
         wide reference;
         spread_dots(along, area, distance, distance, &turned, &reference);
-        wide share = face / (square * reference);
+        wide lengths = square * reference;
+        wide share = face / lengths;
         by_normal = share * reference;
         by_volume = terms.whole ? share * turned : share * turned * turned;
+        if (!terms.frozen) {
+            by_volume *= softening(work, group, pairs, &z, turned, lengths);
+        }
     } else {
         by_normal = face / square;
         by_volume = face;
@@ -143,6 +188,7 @@ static inline __attribute__((always_inline)) void add_fluxes(const struct solver
         add_volume_flux(work, group, pairs, terms, distance, along, by_volume, sums);
     }
 }
+
 static inline __attribute__((always_inline)) void combine(const struct pair_sums *sums, struct terms terms,
                                                           struct impedances z, struct sums of[GROUP])
 {

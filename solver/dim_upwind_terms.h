@@ -35,16 +35,30 @@ static inline bool turns(const struct solver_upwind *work)
     return work->evolves_J && (!work->frozen || work->whole_jump);
 }
 
+/* How many pairs there are of two materials. */
+static inline double pairs_that_meet(const struct solver_upwind *work, size_t count)
+{
+    size_t meet = 0;
+    for (size_t a = 0; a < count && work->stride != 0; a++) {
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            meet += !solver_material_same(work->constants + a, work->constants + work->neighbour[ab]);
+        }
+    }
+    return (double)meet;
+}
+
 static inline void volume_terms(const struct solver_upwind *work, double pairs, double particles,
                                 struct solver_cost_terms *terms)
 {
+    double present = work->frozen ? 0.0 : LANES + 6.0 + (work->stiffness != NULL ? 1.0 : 0.0); /* impedance */
     double area = (work->frozen ? 0.0 : 3.0 * FLOPS_TENSOR + LANES) + FLOPS_SPREAD_DOTS;
     double share = (work->whole_jump ? 4.0 : 5.0) * LANES;
     double jump = (work->whole_jump ? 3.0 * FLOPS_TENSOR + LANES : 0.0) + 3.0 * LANES;
     double slope = work->whole_jump ? DIM * 3.0 * FLOPS_TENSOR : 4.0 * LANES;
     double sum = (work->whole_jump ? 1.0 : 2.0) * LANES;
     solver_cost_term(terms, "dissipation of J", 2,
-                     particles * sum + pairs * ((turns(work) ? area + share : 0.0) + jump));
+                     particles * sum + pairs * ((turns(work) ? area + share + present : 0.0) + jump) +
+                         (work->frozen ? 0.0 : 4.0 * particles));
     solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? pairs * slope : 0.0);
 }
 
@@ -52,12 +66,15 @@ static inline void rate_terms(const struct solver_upwind *work, size_t count, st
 {
     double pairs = (double)work->row[count];
     double particles = (double)count;
+    double meet = pairs_that_meet(work, count);
     double vectors = 2.0 + (work->X != NULL ? 1.0 : 0.0) + (work->frozen ? 0.0 : 1.0); /* jump, back, distance, along */
     double flux = FLOPS_SPREAD_DOTS + (turns(work) ? 5.0 : 6.0) * LANES;
     double sum = (work->stride != 0 ? 1.0 : 4.0) * LANES;
     solver_cost_term(terms, "internal force", 2, pairs * FLOPS_ADD_SCALED + particles * (DIM - 1) * LANES);
     solver_cost_term(terms, "dissipation of p", 2, pairs * (vectors * LANES + flux) + particles * sum);
     solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * 3.0 * FLOPS_TENSOR : 0.0);
+    solver_cost_term(terms, "reconstruction where materials meet", 2,
+                     work->reconstruct ? meet * (4.0 * FLOPS_TENSOR + 2.0 * FLOPS_DOT) : 0.0);
     solver_cost_term(terms, "impedances where materials meet", 2, work->stride != 0 ? pairs * 11.0 * LANES : 0.0);
     if (work->evolves_J) {
         volume_terms(work, pairs, particles, terms);
@@ -94,6 +111,9 @@ static inline void particle_terms(const struct solver_upwind *work, size_t count
     }
     if (work->pressure != NULL) {
         solver_cost_term(terms, "U'(J)", 0, particles * material->volumetric_flops);
+    }
+    if (work->stiffness != NULL) {
+        solver_cost_term(terms, "U''(J)", 0, particles * material->stiffness_flops);
     }
     if (work->lost != NULL) {
         solver_cost_term(terms, "power lost", 0, particles * flops_of_lost(work));

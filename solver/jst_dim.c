@@ -3,6 +3,8 @@
 #include "solver/dim_flops.h"
 #include "solver/dim_sums.h"
 
+#include <math.h>
+
 /* Where materials meet, the volumetric stress has a jump of its own, and so has J: nothing evens that out. */
 static inline bool alike(const struct solver_upwind *work, size_t a, size_t b)
 {
@@ -27,14 +29,16 @@ static void gather(const struct solver_upwind *work, const struct solver_jst *js
         vec v_a = load(work->v + a * LANES);
         vec of_v = {0};
         double of_J = 0.0;
+        double z = of_a->zp; /* where materials meet velocities have a kink: it is damped as in the softest of them */
         for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
             size_t b = work->neighbour[ab];
+            z = fmin(z, work->constants[b * work->stride].zp);
             of_v += (load(work->v + b * LANES) - v_a) * jst->laplacian[2 * ab];
             if (work->evolves_J && alike(work, a, b)) {
                 of_J += (work->J[b] - work->J[a]) * jst->laplacian[2 * ab];
             }
         }
-        store(jst->v_laplacian + a * LANES, (per_V * of_a->zp) * of_v);
+        store(jst->v_laplacian + a * LANES, (per_V * z) * of_v);
         if (work->evolves_J) {
             jst->J_laplacian[a] = per_V * of_a->cp * of_J;
         }

@@ -23,6 +23,12 @@ struct solver_material_constants {
 /* From Young's modulus [Pa], Poisson's ratio in (-1, 0.5) and density [kg/m^3]. */
 struct solver_material_constants solver_material_constants(double E, double nu, double rho);
 
+static inline bool solver_material_same(const struct solver_material_constants *a,
+                                        const struct solver_material_constants *b)
+{
+    return a->rho == b->rho && a->mu == b->mu && a->kappa == b->kappa;
+}
+
 /* Plastic flow. What a particle remembers are `width` numbers, all zero in the virgin material: the equivalent plastic
  * strain, then the components of the inverse plastic right Cauchy-Green tensor less the identity, Cp^-1 - 1: xx, zz in
  * 1D (yy is zz); xx, yy, xy, zz in 2D; xx, yy, zz, xy, yz, zx in 3D. With none of it, stresses and energies are those
@@ -69,9 +75,11 @@ struct solver_material {
     /* Volumetric stress U'(J) [Pa] of particles begin to end - 1. */
     void (*volumetric_range)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                              const double *J, double *pressure);
+    /* U''(J) / kappa of particles begin to end - 1, 0 where it is below that. NULL: it is 1 throughout. */
+    void (*stiffness_range)(size_t begin, size_t end, const double *J, double *stiffness);
     /* Operations of one particle's (cost.h), with H and J of its own or those of F. */
     int (*stress_flops)(bool H, bool J);
-    int volumetric_flops, fastest_flops, energy_flops;
+    int volumetric_flops, stiffness_flops, fastest_flops, energy_flops;
     /* An upper bound, above zero, of the wave speeds [m/s] in all directions over particles begin to end - 1; exact at
      * rest. */
     double (*fastest)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,

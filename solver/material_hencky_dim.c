@@ -305,6 +305,13 @@ static void volumetric_range(const struct solver_material_constants *material, s
     }
 }
 
+static void stiffness_range(size_t begin, size_t end, const double *J, double *stiffness)
+{
+    for (size_t a = begin; a < end; a++) {
+        stiffness[a] = fmax(0.0, 1.0 - log(J[a])) / (J[a] * J[a]);
+    }
+}
+
 /* --- plastic flow --- */
 
 /* From trial strains to those on the yield surface, which are 1 - `part` of them, and what is remembered with them:
@@ -416,8 +423,10 @@ const struct solver_material DIM_NAME(solver_hencky) = {
     .wave_speeds = wave_speeds,
     .stress_range = stress_range,
     .volumetric_range = volumetric_range,
+    .stiffness_range = stiffness_range,
     .stress_flops = stress_flops,
     .volumetric_flops = LOGARITHM + 1,
+    .stiffness_flops = SOLVER_COST_FUNCTION + 3,
     .fastest_flops = STRAINS + FASTEST,
     .energy_flops = STRAINS + ENERGY,
     .fastest = fastest,

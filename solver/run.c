@@ -1,5 +1,6 @@
 #include "solver/run.h"
 
+#include "solver/interfaces.h"
 #include "solver/memory.h"
 #include "solver/path.h"
 #include "solver/run_internal.h"
@@ -62,6 +63,9 @@ static bool set_constants(struct solver_run *run, struct solver_error *error)
         } else if (!constants_at(run, a, &run->constants[a], error)) {
             return false;
         }
+    }
+    if (composite && !solver_interfaces_find(run->cloud, run->constants, error)) {
+        return false;
     }
     run->body = (struct solver_body){.scene = scene,
                                      .cloud = run->cloud,

@@ -70,6 +70,36 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
            (strcmp(scene->precision, "double") == 0 || solver_stencil_narrow(*stencil, error));
 }
 
+/* Where the stencil of a stiff particle reaches a light one its stress moves that one's mass, faster than waves run in
+ * either material. A particle held by its neighbours alone swings with omega^2 = k / m, k = sum_b (lambda + 2 mu)_b
+ * |C_ab|^2 / 4 V_b. On a line of one material omega h is c / sqrt(2), where the fastest mode has c: so what counts is
+ * half the neighbours' mean modulus over a particle's own density. Returns the square root of the largest over c^2 of
+ * the fastest wave, or 1, which it is where a particle on the interface, of both sides' mean density and compliance,
+ * hides them from each other. */
+static double meeting_of(const struct solver_stencil *stencil, const struct solver_material_constants *constants)
+{
+    double fastest = 0.0;
+    double meeting = 0.0;
+    for (size_t a = 0; a < stencil->graph.count; a++) {
+        double sum = 0.0;
+        double weights = 0.0;
+        size_t shift = solver_stencil_shift(stencil, a);
+        for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
+            size_t b = stencil->graph.neighbour[ab];
+            const double *C = solver_stencil_C(stencil, ab + shift);
+            double weight = 0.0;
+            for (int i = 0; i < stencil->dim; i++) {
+                weight += C[i] * C[i] / stencil->V[b];
+            }
+            sum += weight * constants[b].zp * constants[b].cp;
+            weights += weight;
+        }
+        fastest = fmax(fastest, constants[a].cp * constants[a].cp);
+        meeting = weights > 0.0 ? fmax(meeting, sum / (weights * constants[a].rho)) : meeting;
+    }
+    return fmax(1.0, sqrt(0.5 * meeting / fastest));
+}
+
 bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error)
 {
     const struct solver_scene *scene = body->scene;
@@ -91,6 +121,7 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
         return false;
     }
     bind_stencil(system);
+    system->meeting = body->stride != 0 ? meeting_of(system->stencil, body->constants) : 1.0;
     *out = system;
     return true;
 }
@@ -164,6 +195,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     size_t vector = system->loops->lanes;
     size_t tensor = dim * vector;
     bool pressure = work->evolves_J && !work->whole_jump && system->rates == NULL;
+    bool stiffens = work->evolves_J && system->rates == NULL && work->material->stiffness_range != NULL;
     bool slopes = work->reconstruct && system->rates == NULL;
     bool placed = system->rates == NULL && (work->frozen || work->reconstruct || work->evolves_J);
     size_t remembered = work->hardening != NULL ? work->material->flow->width : 0;
@@ -182,6 +214,7 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
          {NULL},
          0},
         {"U'(J)", pressure ? 1 : 0, false, {&work->pressure}, {NULL}, 0},
+        {"U''(J) / kappa", stiffens ? 1 : 0, false, {&work->stiffness}, {NULL}, 0},
         {"grad U'(J)", pressure && slopes ? vector : 0, false, {&work->pressure_gradient}, {NULL}, 0},
         {"grad P",
          work->evolves_J && work->whole_jump && slopes ? dim * tensor : 0,
@@ -371,7 +404,7 @@ void solver_upwind_refresh(void *of, size_t begin, size_t end)
     system->loops->stresses(&system->work, begin, end);
 }
 
-/* The step that the CFL number allows (eq. 41). */
+/* The step that the CFL number allows (eq. 41), where materials meet less. */
 double solver_upwind_largest_step(const void *of)
 {
     const struct solver_upwind_system *system = of;
@@ -387,7 +420,7 @@ double solver_upwind_largest_step(const void *of)
                 : work->material->fastest(work->constants, work->stride, at.begin, at.end, work->F);
         fastest = fmax(fastest, here);
     }
-    return system->body->scene->cfl * system->body->cloud->spacing / fastest;
+    return system->body->scene->cfl * system->body->cloud->spacing / (fastest * system->meeting);
 }
 
 size_t solver_upwind_first_broken(const void *of, size_t begin, size_t end)

@@ -24,7 +24,8 @@ struct solver_upwind_system {
     void (*rates)(const void *system, size_t begin, size_t end);
     /* The operations of both, in place of those of Riemann's dissipation and of the rates. */
     void (*terms)(const void *system, struct solver_cost_terms *terms);
-    size_t size; /* of the struct */
+    double meeting; /* by how much what couples where materials meet is faster than waves, or 1 */
+    size_t size;    /* of the struct */
 };
 
 /* `size`: of the struct that starts with the system. */

@@ -82,6 +82,9 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
         {.name = "P", .width = tensor, .single = &work->P},
         {.name = "cof F", .width = J && !H && !work->frozen ? tensor : 0, .single = &work->cofactor},
         {.name = "U'(J)", .width = J ? 1 : 0, .single = &work->pressure},
+        {.name = "U''(J) / kappa",
+         .width = J && work->material->stiffness_range != NULL ? 1 : 0,
+         .single = &work->stiffness},
         {.name = "grad U'(J)", .width = J && work->reconstruct ? vector : 0, .single = &work->pressure_gradient},
         {.name = "grad v", .width = work->reconstruct && !own ? tensor : 0, .single = &work->v_gradient},
     };
@@ -108,7 +111,7 @@ struct window {
     double F[WINDOW * 12] __attribute__((aligned(64)));
     double H[WINDOW * 12] __attribute__((aligned(64)));
     double P[WINDOW * 12] __attribute__((aligned(64)));
-    double J[WINDOW], pressure[WINDOW];
+    double J[WINDOW], pressure[WINDOW], stiffness[WINDOW];
 };
 
 static size_t tensor_width(const struct system *system)
@@ -137,6 +140,7 @@ static void open(const struct system *system, size_t begin, size_t end, struct w
     }
     work->cofactor = from->cofactor != NULL ? window->H : NULL;
     work->pressure = from->pressure != NULL ? window->pressure : NULL;
+    work->stiffness = from->stiffness != NULL ? window->stiffness : NULL;
     work->J = from->J != NULL ? window->J : NULL;
     for (size_t i = 0; from->J != NULL && i < count; i++) {
         window->J[i] = 1.0 + (double)from->J[begin + i];
@@ -159,6 +163,9 @@ static void refresh(void *of, size_t begin, size_t end)
         }
         if (to->pressure != NULL) {
             system->convert->narrow(window.pressure, to->pressure + first, window.count);
+        }
+        if (to->stiffness != NULL) {
+            system->convert->narrow(window.stiffness, to->stiffness + first, window.count);
         }
     }
 }

@@ -76,14 +76,61 @@ static const struct line_operator sbp4 = {
     .interior = {0, 2.0 / 3.0, -1.0 / 12.0},
 };
 
-static double weight(const struct line_operator *line, uint32_t i, uint32_t points)
+/* A piece of a line, from one end or interface to the next. */
+struct piece {
+    uint32_t first, points;
+};
+
+/* Whether lines along the axis end at i, on either side, since materials meet there: what reaches across would take the
+ * gradient of one for that of the other. Operators that reach to the next particle only end there anyway. */
+static bool ends_at(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis, uint32_t i)
+{
+    if (cloud->interface == NULL || line->block == 1) {
+        return false;
+    }
+    size_t from = 0;
+    for (size_t k = 0; k < axis; k++) {
+        from += cloud->points[k];
+    }
+    return cloud->interface[from + i] != 0;
+}
+
+/* The piece that holds points i and i + 1, at the end of a line i - 1 and i; as much of it as boundary blocks reach. */
+static struct piece piece_at(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis,
+                             uint32_t i)
+{
+    enum { FAR = 2 * 8 };
+    uint32_t points = cloud->points[axis];
+    if (cloud->interface == NULL) {
+        return (struct piece){0, points};
+    }
+    uint32_t first = i + 1 < points ? i : i - 1;
+    uint32_t last = first + 1;
+    uint32_t least = first > FAR ? first - FAR : 0;
+    uint32_t most = points - last > FAR ? last + FAR : points - 1;
+    while (first > least && !ends_at(cloud, line, axis, first)) {
+        first--;
+    }
+    while (last < most && !ends_at(cloud, line, axis, last)) {
+        last++;
+    }
+    return (struct piece){first, last - first + 1};
+}
+
+static double weight_in(const struct line_operator *line, uint32_t i, uint32_t points)
 {
     uint32_t end = i < points - 1 - i ? i : points - 1 - i;
     return end < line->block ? line->weight[end] : 1.0;
 }
 
-/* Q_ij for i < j; the right end is the left end mirrored. */
-static double entry(const struct line_operator *line, uint32_t i, uint32_t j, uint32_t points)
+/* Quadrature weight; on an interface that of an end twice. */
+static double weight(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis, uint32_t i)
+{
+    struct piece piece = piece_at(cloud, line, axis, i);
+    return weight_in(line, i - piece.first, piece.points) * (ends_at(cloud, line, axis, i) ? 2.0 : 1.0);
+}
+
+static double entry_in(const struct line_operator *line, uint32_t i, uint32_t j, uint32_t points)
 {
     if (i < line->block) {
         return j < 8 ? line->Q[i][j] : 0.0;
@@ -96,12 +143,22 @@ static double entry(const struct line_operator *line, uint32_t i, uint32_t j, ui
     return j - i < 3 ? line->interior[j - i] : 0.0;
 }
 
+/* Q_ij for i < j; the right end is the left end mirrored. Nothing crosses an interface. */
+static double entry(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis, uint32_t i,
+                    uint32_t j)
+{
+    struct piece piece = piece_at(cloud, line, axis, i);
+    return j - piece.first < piece.points ? entry_in(line, i - piece.first, j - piece.first, piece.points) : 0.0;
+}
+
 /* Face measure between points i and i + 1, in face areas. A row's faces may not enclose more than its quadrature
  * weight, 1/2 sum A h <= H h, or the smallest rows would limit the time step. */
-static double face(const struct line_operator *line, uint32_t i, uint32_t points)
+static double face(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis, uint32_t i)
 {
-    double at_i = weight(line, i, points) * (i == 0 ? 2.0 : 1.0);
-    double at_next = weight(line, i + 1, points) * (i + 2 == points ? 2.0 : 1.0);
+    struct piece piece = piece_at(cloud, line, axis, i);
+    uint32_t k = i - piece.first;
+    double at_i = weight_in(line, k, piece.points) * (k == 0 ? 2.0 : 1.0);
+    double at_next = weight_in(line, k + 1, piece.points) * (k + 2 == piece.points ? 2.0 : 1.0);
     return line->face * fmin(1.0, fmin(at_i, at_next));
 }
 
@@ -128,12 +185,12 @@ static size_t list_pairs(const struct solver_cloud *cloud, const struct line_ope
         uint32_t first = site[axis] > line->reach ? site[axis] - line->reach : 0;
         for (uint32_t j = first; j <= site[axis] + line->reach && j < points; j++) {
             double Q = j == site[axis]  ? 0.0
-                       : j > site[axis] ? entry(line, site[axis], j, points)
-                                        : -entry(line, j, site[axis], points);
+                       : j > site[axis] ? entry(cloud, line, axis, site[axis], j)
+                                        : -entry(cloud, line, axis, j, site[axis]);
             if (Q != 0.0) {
                 size_t at = home + j * stride[axis] - site[axis] * stride[axis];
                 bool next = j + 1 == site[axis] || j == site[axis] + 1;
-                double A = next ? face(line, j < site[axis] ? j : site[axis], points) : 0.0;
+                double A = next ? face(cloud, line, axis, j < site[axis] ? j : site[axis]) : 0.0;
                 out[found++] = (struct line_pair){.neighbour = particle_at[at], .axis = axis, .Q = Q, .face = A};
             }
         }
@@ -156,7 +213,7 @@ static double measure(const struct solver_cloud *cloud, const struct line_operat
     double product = 1.0;
     for (size_t axis = 0; axis < dim; axis++) {
         if (axis != except) {
-            product *= cloud->spacing * weight(line, cloud->site[a * dim + axis], cloud->points[axis]);
+            product *= cloud->spacing * weight(cloud, line, axis, cloud->site[a * dim + axis]);
         }
     }
     return product;
@@ -250,8 +307,11 @@ bool solver_stencil_sbp4(const struct solver_cloud *cloud, double support, struc
 {
     (void)support;
     uint32_t shortest = UINT32_MAX;
-    for (int axis = 0; axis < cloud->dim; axis++) {
-        shortest = cloud->points[axis] < shortest ? cloud->points[axis] : shortest;
+    for (size_t axis = 0; axis < (size_t)cloud->dim; axis++) {
+        for (uint32_t i = 0; i + 1 < cloud->points[axis]; i++) {
+            struct piece piece = piece_at(cloud, &sbp4, axis, i);
+            shortest = piece.points < shortest ? piece.points : shortest;
+        }
     }
     return build(cloud, shortest < sbp4.fewest ? &sbp4_short : &sbp4, stencil, error);
 }

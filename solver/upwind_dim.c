@@ -184,16 +184,46 @@ struct side {
     struct impedances z;
 };
 
-static inline __attribute__((always_inline)) struct side
-own_side(const struct solver_upwind *work, const struct group *group, const stored *x, const stored *slope)
+static inline __attribute__((always_inline)) struct side own_side(const struct solver_upwind *work,
+                                                                  const struct group *group, struct terms terms,
+                                                                  const stored *x, const stored *slope)
 {
     struct side side = {.x = gather(x, LANES, group->at), .v = gather(work->v, LANES, group->at)};
     side.X = work->X != NULL ? gather(work->X, LANES, group->at) : side.x;
     for (int I = 0; I < DIM; I++) {
         side.slope[I] = gather(slope + I * LANES, TENSOR, group->at);
     }
-    side.z = impedances(work, group->at);
+    side.z = impedances(work, group->at, terms.volume && !terms.frozen);
     return side;
+}
+
+/* Jumps of velocity, and where materials meet others: slopes jump there, and that of a particle on the interface is a
+ * mean of both sides', of the softer one's size. The side whose slope leaves the smaller jump reconstructs both
+ * states. */
+static inline wide one_sided_jumps(const struct solver_upwind *work, const struct group *group,
+                                   const struct pairs *pairs, const stored *slope, wide jump, wide difference,
+                                   wide distance)
+{
+    vec jumps[GROUP];
+    vec by_a[GROUP];
+    vec distances[GROUP];
+    take_apart(jump, jumps);
+    take_apart(difference, by_a);
+    take_apart(distance, distances);
+    for (int g = 0; g < GROUP; g++) {
+        size_t a = group->at[g];
+        size_t b = pairs->b[g];
+        if (solver_material_same(work->constants + a, work->constants + b)) {
+            continue;
+        }
+        vec by_b = by_a[g];
+        for (int I = 0; I < DIM; I++) {
+            by_a[g] -= load(slope + a * TENSOR + I * LANES) * splat(distances[g][I]);
+            by_b -= load(slope + b * TENSOR + I * LANES) * splat(distances[g][I]);
+        }
+        jumps[g] = dot(by_a[g], by_a[g]) < dot(by_b, by_b) ? by_a[g] : by_b;
+    }
+    return join(jumps);
 }
 
 static inline __attribute__((always_inline)) void add_pairs(const struct solver_upwind *work, const struct group *group,
@@ -213,7 +243,8 @@ static inline __attribute__((always_inline)) void add_pairs(const struct solver_
         along += distance; /* what is stored is displacements */
     }
     wide jump = gather(work->v, LANES, pairs->b) - own->v;
-    struct impedances z = terms.composite ? meet(own->z, impedances(work, pairs->b)) : own->z;
+    struct impedances z = terms.composite ? meet(own->z, impedances(work, pairs->b, false)) : own->z;
+    wide difference = jump;
     wide back = -0.5 * distance;
     for (int I = 0; I < DIM; I++) {
         wide D = terms.transposed ? weight(transposed, I) : pair.C.each[I];
@@ -221,6 +252,9 @@ static inline __attribute__((always_inline)) void add_pairs(const struct solver_
         if (terms.reconstruct) {
             jump += (gather(slope + I * LANES, TENSOR, pairs->b) + own->slope[I]) * spread(back, I);
         }
+    }
+    if (terms.composite && terms.reconstruct) {
+        jump = one_sided_jumps(work, group, pairs, slope, jump, difference, distance);
     }
     add_fluxes(work, group, pairs, terms, jump, distance, along, pair.A, z, sums);
 }
@@ -232,7 +266,7 @@ static inline __attribute__((always_inline)) void sum_pairs(const struct solver_
     struct pair_sums sums = {.volume = {0}};
     const stored *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
     const stored *x = terms.frozen ? work->X : work->x;
-    struct side own = own_side(work, group, x, slope);
+    struct side own = own_side(work, group, terms, x, slope);
     if (work->far) {
         fetch(work, slope, group, last);
     }
@@ -309,6 +343,9 @@ static void stresses(const struct solver_upwind *work, size_t begin, size_t end)
     }
     if (work->pressure != NULL) {
         work->material->volumetric_range(work->constants, work->stride, begin, end, work->J, work->pressure);
+    }
+    if (work->stiffness != NULL) {
+        work->material->stiffness_range(begin, end, work->J, work->stiffness);
     }
     if (work->flown != NULL) {
         work->material->flow->stress_range(work->constants, work->stride, work->hardening, begin, end, work->F,

@@ -33,6 +33,7 @@ struct SOLVER_WORK {
     SOLVER_STORED *cofactor;          /* H, or cof F where H is not evolved but the equation of J needs it */
     SOLVER_STORED *v_gradient;        /* tensor: least-squares gradient of v; NULL: F_rate serves */
     SOLVER_STORED *pressure;          /* [count] U'(J); for the dissipation of J by its jump */
+    SOLVER_STORED *stiffness;         /* [count] U''(J) / kappa, not below 0; NULL: it is 1 */
     SOLVER_STORED *pressure_gradient; /* vector */
     SOLVER_STORED *P_gradient;        /* [count][DIM (derivative)] tensors; for the dissipation of J by the jump of P */
     double *lost;                 /* [count][2] what dissipation takes, as a power over the linear momentum [W], and the

@@ -83,6 +83,22 @@ function(assay_mutant name gates)
     $<TARGET_FILE:assay> ${ARGN} -- $<TARGET_FILE:mutant_${name}> ${ARGN})
 endfunction()
 
+# assay_extreme_mutant(NAME DIM FAILING WORD...): of the rows of `extremes WORD...`, which are of bodies in DIM dimensions,
+# so many must fail.
+function(assay_extreme_mutant name dim failing)
+  assay_mutant_source(${name})
+  set(library assay_solver)
+  if(through MATCHES "_dim\\.c$")
+    set(library assay_solver_${dim}d_baseline)
+  endif()
+  assay_mutate(${name} ${library})
+  add_executable(mutant_${name} ${objects} $<TARGET_OBJECTS:assay_main>)
+  target_link_libraries(mutant_${name} PRIVATE assay_verify)
+  assay_test(mustfail-${name} LABELS stability mustfail ENVIRONMENT ASSAY_ISA=baseline
+    COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 1 "${failing} of these fail" $<TARGET_FILE:mutant_${name}> extremes
+    ${ARGN})
+endfunction()
+
 # assay_unit_mutant(NAME UNIT TEST): this test of tests/unit/UNIT.c must fail, in any of the dimensions.
 function(assay_unit_mutant name unit test)
   assay_mutant_source(${name})
@@ -119,6 +135,11 @@ assay_mutant(rk4-weight "p,P" ${quick_sbp4})
 assay_mutant(body-force-late "rate p,rate x,rate P" mms "small waves, 1D")
 assay_mutant(return-map-hardening "P_all" plastic-cube --levels 3 --set threads=1)
 assay_mutant(plastic-memory "P_all" plastic-cube --levels 3 --set threads=1)
+
+assay_extreme_mutant(flux-impedance-at-rest 3 1 stretch "upwind {p,F,H,J}, 3D")
+assay_extreme_mutant(step-beyond-cfl 1 1 cfl "upwind sbp2 pF rk4, 1D")
+assay_extreme_mutant(interface-mean-slope 1 1 contrast "upwind sbp2")
+assay_extreme_mutant(interface-crossed 1 1 contrast "upwind sbp4")
 
 assay_unit_mutant(jst-biharmonic-sign solver_jst "its work is the Laplacian's square")
 assay_unit_mutant(ulsph-spin-sign solver_ulsph_gradients "linear velocity")

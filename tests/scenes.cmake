@@ -30,7 +30,7 @@ function(scene_with name old new out)
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/scenes/${name}.lua CONTENT "@text@" @ONLY)
 endfunction()
 scene_with(bimaterial-wave "snapshots_sigma_l1 = 5e-4, [\"rate snapshots_sigma_l1\"] = 1.4, [\"figure ahead of the front\"] = 2e-4,
-      [\"figure reflection\"] = 5e-5, [\"rate figure reflection\"] = 1.7, [\"figure transmission\"] = 1e-5"
+      [\"figure reflection\"] = 5e-6, [\"rate figure reflection\"] = 1.7, [\"figure transmission\"] = 1e-6"
   "P_l1 = 0.02, [\"rate P_l1\"] = 1" wave_scene)
 scene_with(cantilever-plate "probes = 0.008, [\"rate probes\"] = 1.4, [\"figure period\"] = 6e-4"
   "probes = 0.02, [\"figure period\"] = 1.5e-3" plate_scene)

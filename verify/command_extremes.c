@@ -116,6 +116,7 @@ static bool run_all(const struct verify_options *options, const char *word, stru
                     struct solver_error *error)
 {
     struct verify_extremes in = {.options = options, .take = take, .context = tally};
+    in.rows = options->operand_count > 1 ? options->operand[1] : NULL;
     bool done = true;
     for (const struct verify_extreme *extreme = verify_extremes_table(); done && extreme->name != NULL; extreme++) {
         done = !wanted(extreme, word) || verify_extreme_check(extreme, options, error);
@@ -134,6 +135,10 @@ static bool run_all(const struct verify_options *options, const char *word, stru
         }
     }
     verify_signals_leave();
+    if (done && tally->unfinished == NULL && in.rows != NULL && tally->rows == 0) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "assay extremes %s: no row is of anything with \"%.100s\" in it",
+                           word, in.rows);
+    }
     return done;
 }
 

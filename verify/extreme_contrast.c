@@ -15,11 +15,12 @@ static const double right = 0.1; /* largest relative L1 error of the stress that
 struct bar {
     const struct verify_extremes *in;
     const char *settings;
+    double error; /* of the last run that was an answer */
 };
 
 static bool right_at(void *with, double contrast, char *note, size_t size)
 {
-    const struct bar *bar = with;
+    struct bar *bar = with;
     struct verify_trial trial;
     struct verify_truth truth = {.kind = NULL};
     struct solver_output out;
@@ -38,6 +39,7 @@ static bool right_at(void *with, double contrast, char *note, size_t size)
     } else if (!holds) {
         (void)snprintf(note, size, "beyond, the relative L1 error of the stress is %.2g", found);
     }
+    bar->error = holds ? found : bar->error;
     verify_truth_free(&truth);
     verify_trial_close(&trial);
     return holds;
@@ -49,24 +51,28 @@ bool verify_extreme_contrast(const struct verify_extremes *in, struct solver_err
         const char *what, *settings;
         double up, down; /* as far as it has to come */
     } schemes[] = {
-        {"upwind sbp4 rk4", "scheme=upwind", 100.0, 1e-2},
-        {"upwind sbp2 tvd-rk2", "scheme=upwind stencil=sbp2 integrator=tvd-rk2 cfl=0.3", 1e3, 1e-6},
-        {"jst sbp2 tvd-rk2", "scheme=jst stencil=sbp2 integrator=tvd-rk2 cfl=0.3", 10.0, 0.1},
+        {"upwind sbp4 rk4", "scheme=upwind", 1e6, 1e-6},
+        {"upwind sbp2 tvd-rk2", "scheme=upwind stencil=sbp2 integrator=tvd-rk2 cfl=0.3", 1e6, 1e-6},
+        {"jst sbp2 tvd-rk2", "scheme=jst stencil=sbp2 integrator=tvd-rk2 cfl=0.3", 1e6, 1e-6},
         {"ulsph tvd-rk2", "scheme=ulsph", 10.0, 0.1},
     };
     (void)error;
     for (size_t i = 0; i < sizeof schemes / sizeof *schemes; i++) {
         for (int down = 0; down < 2; down++) {
-            struct bar bar = {in, schemes[i].settings};
+            struct bar bar = {in, schemes[i].settings, NAN};
             struct verify_extreme_row row = {
                 .unit = "-", .least = down ? -INFINITY : schemes[i].up, .most = down ? schemes[i].down : INFINITY};
             (void)snprintf(row.what, sizeof row.what, "%s", schemes[i].what);
+            if (!verify_extreme_asked(in, row.what)) {
+                continue;
+            }
             (void)snprintf(row.quantity, sizeof row.quantity, "%s of E and rho",
                            down ? "smallest jump" : "largest jump");
             verify_extreme_bisect(right_at, &bar, down ? 0.99 : 1.01, down ? 1e-6 : 1e6, 0.1, &row.value, &row.fails,
                                   row.note, sizeof row.note);
             if (isnan(row.fails)) {
-                (void)snprintf(row.note, sizeof row.note, "as far as it was driven");
+                (void)snprintf(row.note, sizeof row.note,
+                               "as far as it was driven: there the relative L1 error of the stress is %.2g", bar.error);
             }
             verify_extreme_told(in, &row);
         }

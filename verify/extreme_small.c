@@ -45,6 +45,9 @@ static void fewest(const struct verify_extremes *in, const char *what, const cha
     struct verify_extreme_row row = {.value = NAN, .fails = NAN, .unit = "cells", .least = 1.0, .most = 20.0};
     (void)snprintf(row.quantity, sizeof row.quantity, "fewest cells %s", key);
     (void)snprintf(row.what, sizeof row.what, "%s", what);
+    if (!verify_extreme_asked(in, what)) {
+        return;
+    }
     double worst = 0.0;
     for (int cells = 1; cells <= 12; cells++) {
         char all[512];

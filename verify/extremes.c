@@ -88,6 +88,11 @@ bool verify_extreme_holds(const struct verify_extreme_row *row)
     return isgreaterequal(row->value, row->least) && islessequal(row->value, row->most); /* no number is neither */
 }
 
+bool verify_extreme_asked(const struct verify_extremes *in, const char *what)
+{
+    return in->rows == NULL || strstr(what, in->rows) != NULL;
+}
+
 /* A row that is told after the program was asked to end was cut short somewhere, and is none. */
 void verify_extreme_told(const struct verify_extremes *in, const struct verify_extreme_row *row)
 {

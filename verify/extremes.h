@@ -26,6 +26,7 @@ struct verify_extremes {
     void (*take)(void *context, const char *extreme, const struct verify_extreme_row *row);
     void *context;
     const char *extreme; /* that which runs */
+    const char *rows;    /* measured are those with this in what they are of; NULL: all */
 };
 
 struct verify_extreme {
@@ -44,6 +45,8 @@ bool verify_extreme_check(const struct verify_extreme *extreme, const struct ver
 
 /* Whether the value lies within its bounds; what is only told passes unless it is NaN. */
 bool verify_extreme_holds(const struct verify_extreme_row *row);
+/* Whether a row of this is to be measured. */
+bool verify_extreme_asked(const struct verify_extremes *in, const char *what);
 /* Hands a row to whoever takes it, unless the program was asked to end (signals.h) while it was measured. */
 void verify_extreme_told(const struct verify_extremes *in, const struct verify_extreme_row *row);
 

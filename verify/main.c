@@ -130,21 +130,23 @@ static const struct verify_command commands[] = {
      .most = 1,
      .run = verify_command_bench},
     {.name = "extremes",
-     .operands = "[NAME]",
+     .operands = "[NAME [ROWS]]",
      .summary = "where each scheme works, and the nearest value at which it fails",
      .help =
          "Drives one quantity after the other until runs no longer hold, most by bisection, and prints the last\n"
          "value that holds beside the nearest that fails, what is to be expected, and why it fails. NAME is one of\n"
          "cfl, scale, place, alternating, spin, vibration, poisson, stretch, perturbed, impact, contrast, small;\n"
-         "without it all are measured. --set goes to every run; keys that the rows set themselves are refused.\n\n"
+         "without it all are measured. ROWS picks those that have this in their first column. --set goes to every\n"
+         "run; keys that the rows set themselves are refused.\n\n"
          "  assay extremes scale\n"
+         "  assay extremes cfl \"sbp2 pF rk4, 1D\"\n"
          "  assay extremes cfl --json cfl.json\n\n"
          "SIGINT (Ctrl-C), SIGTERM and SIGHUP end it by the signal; the rows before stand, in the JSON file too,\n"
          "which then says by what it was stopped, and during which extreme.\n\n"
          "Exit code: 0 all bounds hold; 1 one does not; 2 a word or a file is wrong; 3 a run that had to end broke\n"
          "down.",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_JSON,
-     .most = 1,
+     .most = 2,
      .run = verify_command_extremes},
     {.name = "cost",
      .operands = "SCENE",

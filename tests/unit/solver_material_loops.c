@@ -189,6 +189,39 @@ static void volumetric_range(const struct sample *sample)
     }
 }
 
+/* U''(J) / kappa against a difference of U'(J), where it is not 1. */
+static void stiffness_range(const struct sample *sample)
+{
+    enum { COUNT = 9, BEGIN = 2, END = 7, SIDES = 2 };
+    double J[COUNT];
+    double stiffness[COUNT] = {0};
+    double pressure[SIDES][COUNT];
+    const double step = 1e-5;
+    for (size_t a = 0; a < COUNT; a++) {
+        J[a] = uniform(0.3, 4.0);
+    }
+    J[COUNT / 2] = 3.5; /* where Hencky's U' falls */
+    for (size_t a = 0; a < COUNT; a++) {
+        stiffness[a] = 1.0;
+    }
+    if (sample->material->stiffness_range != NULL) {
+        sample->material->stiffness_range(BEGIN, END, J, stiffness);
+    }
+    for (int side = 0; side < SIDES; side++) {
+        double moved[COUNT];
+        for (size_t a = 0; a < COUNT; a++) {
+            moved[a] = J[a] * (1.0 + (side == 0 ? -step : step));
+        }
+        sample->material->volumetric_range(&sample->constants, 0, 0, COUNT, moved, pressure[side]);
+    }
+    for (size_t a = 0; a < COUNT; a++) {
+        bool inside = a >= BEGIN && a < END;
+        double slope = (pressure[1][a] - pressure[0][a]) / (2.0 * step * J[a] * sample->constants.kappa);
+        expect(sample, "volumetric stiffness", fabs(stiffness[a] - (inside ? fmax(0.0, slope) : 1.0)),
+               inside ? 1e-8 * fmax(1.0, slope) : 0.0);
+    }
+}
+
 static void test_speeds(void)
 {
     each(wave_speeds);
@@ -209,6 +242,11 @@ static void test_volumetric(void)
     each(volumetric_range);
 }
 
+static void test_stiffness(void)
+{
+    each(stiffness_range);
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -216,6 +254,7 @@ int main(void)
         {"the fastest speed is bounded, exactly at rest", test_fastest},
         {"the hot loop is the pointwise stress", test_range},
         {"the volumetric stress is that of a spherical deformation", test_volumetric},
+        {"volumetric stiffness is the slope of the stress", test_stiffness},
     };
     return unit_main("material loops", tests, sizeof tests / sizeof *tests);
 }

@@ -53,6 +53,31 @@ static void test_uniform(void)
     }
 }
 
+/* A light, soft half and one of ten thousand times its density and stiffness, with no particle between: the step is one
+ * that the light particles beside the stiff ones can follow. */
+static void test_contrast(void)
+{
+    static const char contrast[] =
+        "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2,\n"
+        "    at = function(X) if X < 0.52 then return 3, 0.3, 2 end return 3e4, 0.3, 2e4 end }\n"
+        "initial = { velocity = function(X, Y, Z)\n"
+        "    return first(1e-4 * sin(40 * X + 3), 1e-4 * cos(50 * (Y or 0)), 0) end }\n";
+    static const char *const rows[] = {"dim=1 n=16 evolved=pF", "dim=2 n=8 evolved=pFHJ stencil=sbp4",
+                                       "dim=2 n=8 evolved=pF stencil=sph support=2.1",
+                                       "dim=2 n=8 evolved=pF scheme=jst"};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct sample sample = start(contrast, "integrator=rk4 cfl=0.45 t_end=1e9 %s", rows[i]);
+        double most = 0.0;
+        advance(&sample, 400);
+        struct solver_output output = output_of(&sample);
+        for (size_t k = 0; k < output.cloud->count * (size_t)output.cloud->dim; k++) {
+            most = fmax(most, fabs(output.v[k]));
+        }
+        CU_ASSERT(most > 0.0 && most < 1e-2);
+        finish(&sample);
+    }
+}
+
 static void test_momentum(void)
 {
     char text[2048];
@@ -124,6 +149,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"one material said in two ways", test_uniform},
         {"momentum of a composite body", test_momentum},
+        {"a step for materials that differ ten thousand times", test_contrast},
         {"constants that cannot be", test_refused},
         {"a face that is let go", test_let_go},
     };
