@@ -115,6 +115,8 @@ bool solver_closure_ready(struct solver_closure *of, double radius, struct solve
 void solver_closure_close(struct solver_closure *of);
 /* The grids of it, for solver_closure_ready. */
 bool solver_closure_grids(struct solver_closure *of, double radius, struct solver_error *error);
+/* The Cholesky factor of the coarsest grid's matrix, scaled to a unit diagonal and shifted so that it has one. */
+bool solver_closure_factorise(struct solver_closure_grid *grid, struct solver_error *error);
 void solver_closure_grids_free(struct solver_closure *of);
 /* z = approximately M^-1 r, the same symmetric positive operator each time. */
 void solver_closure_cycle(struct solver_closure *of, const double *r, double *z);

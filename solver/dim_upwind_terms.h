@@ -74,7 +74,7 @@ static inline void rate_terms(const struct solver_upwind *work, size_t count, st
     solver_cost_term(terms, "dissipation of p", 2, pairs * (vectors * LANES + flux) + particles * sum);
     solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * 3.0 * FLOPS_TENSOR : 0.0);
     solver_cost_term(terms, "reconstruction where materials meet", 2,
-                     work->reconstruct ? meet * (4.0 * FLOPS_TENSOR + 2.0 * FLOPS_DOT) : 0.0);
+                     work->reconstruct ? meet * (4.0 * FLOPS_TENSOR + 2.0 * FLOPS_DOT + 3.0 * LANES + 3.0) : 0.0);
     solver_cost_term(terms, "impedances where materials meet", 2, work->stride != 0 ? pairs * 11.0 * LANES : 0.0);
     if (work->evolves_J) {
         volume_terms(work, pairs, particles, terms);

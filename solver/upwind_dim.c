@@ -198,8 +198,9 @@ static inline __attribute__((always_inline)) struct side own_side(const struct s
 }
 
 /* Jumps of velocity, and where materials meet others: slopes jump there, and that of a particle on the interface is a
- * mean of both sides', of the softer one's size. The side whose slope leaves the smaller jump reconstructs both
- * states. */
+ * mean of both sides', of the softer one's size. The side whose slope leaves the smaller jump reconstructs both states:
+ * a mean of both jumps, each weighted by the square of the other, so that nothing hangs on which is smaller by a bit.
+ */
 static inline wide one_sided_jumps(const struct solver_upwind *work, const struct group *group,
                                    const struct pairs *pairs, const stored *slope, wide jump, wide difference,
                                    wide distance)
@@ -221,7 +222,12 @@ static inline wide one_sided_jumps(const struct solver_upwind *work, const struc
             by_a[g] -= load(slope + a * TENSOR + I * LANES) * splat(distances[g][I]);
             by_b -= load(slope + b * TENSOR + I * LANES) * splat(distances[g][I]);
         }
-        jumps[g] = dot(by_a[g], by_a[g]) < dot(by_b, by_b) ? by_a[g] : by_b;
+        double of_a = dot(by_a[g], by_a[g]);
+        double of_b = dot(by_b, by_b);
+        double sum = of_a + of_b;
+        double share = sum > 0.0 ? of_b / sum : 0.5;
+        double rest = sum > 0.0 ? of_a / sum : 0.5;
+        jumps[g] = by_a[g] * splat(share) + by_b * splat(rest);
     }
     return join(jumps);
 }

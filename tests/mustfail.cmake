@@ -116,7 +116,7 @@ function(assay_unit_mutant name unit test)
   add_executable(mutant_${name} ${objects} $<TARGET_OBJECTS:test_${unit}>
     $<FILTER:${unit_frame},EXCLUDE,/${source}[.]>)
   string(REGEX MATCH "^[a-z]+" room ${unit})
-  target_link_libraries(mutant_${name} PRIVATE assay_${room} PkgConfig::CUNIT)
+  target_link_libraries(mutant_${name} PRIVATE assay_${room} PkgConfig::CUNIT OpenMP::OpenMP_C)
   assay_test(mustfail-${name} LABELS unit mustfail ENVIRONMENT ASSAY_ISA=baseline
     COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/mustfail_unit.sh ${test}
     $<TARGET_FILE:test_${unit}> $<TARGET_FILE:mutant_${name}>)
