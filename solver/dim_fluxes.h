@@ -50,10 +50,10 @@ static inline wide traction_jump(const struct solver_upwind *work, const size_t 
     wide traction = {0};
     wide half = 0.5 * distance;
     for (int I = 0; I < DIM; I++) {
-        const stored *P = work->P + I * LANES;
+        const real *P = work->P + I * LANES;
         wide jump = gather(P, TENSOR, b) - gather(P, TENSOR, a);
         for (int K = 0; reconstruct && K < DIM; K++) {
-            const stored *slopes = work->P_gradient + K * TENSOR + I * LANES;
+            const real *slopes = work->P_gradient + K * TENSOR + I * LANES;
             wide slope = gather(slopes, (size_t)DIM * TENSOR, a) + gather(slopes, (size_t)DIM * TENSOR, b);
             jump -= spread(half, K) * slope;
         }
@@ -74,7 +74,7 @@ static inline __attribute__((always_inline)) wide pair_area(const struct solver_
     wide area = IN_SINGLE ? distance : (wide){0}; /* of the identities */
     wide half = 0.5 * distance;
     for (int I = 0; I < DIM; I++) {
-        const stored *cofactor = work->cofactor + I * LANES;
+        const real *cofactor = work->cofactor + I * LANES;
         area += (gather(cofactor, TENSOR, a) + gather(cofactor, TENSOR, b)) * spread(half, I);
     }
     return area;
@@ -102,7 +102,7 @@ static inline __attribute__((always_inline)) void add_volume_flux(const struct s
     }
     sums->volume += by_volume * (gather_scalars(work->pressure, pairs->b) - gather_scalars(work->pressure, group->at));
     if (terms.reconstruct) {
-        const stored *slopes = work->pressure_gradient;
+        const real *slopes = work->pressure_gradient;
         wide slope = gather(slopes, LANES, group->at) + gather(slopes, LANES, pairs->b);
         sums->slopes += by_volume * (slope * distance);
     }
@@ -159,7 +159,7 @@ static inline __attribute__((always_inline)) void combine(const struct pair_sums
         of[g] = (struct sums){.force = forces[g], .dissipation = dissipations[g], .volume = sums->volume[g * LANES]};
     }
     if (terms.volume) {
-        wide by_component = terms.whole ? sums->tractions : -0.5 * sums->slopes;
+        wide by_component = terms.whole ? sums->tractions : (real)-0.5 * sums->slopes;
         for (int i = 0; i < WIDTH; i++) { /* lanes beyond DIM are zero */
             of[i / LANES].volume += by_component[i];
         }
