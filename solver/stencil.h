@@ -69,7 +69,7 @@ bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const stru
                                       struct solver_error *error);
 void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_cost_arrays *arrays);
 /* Keeps rows of pair vectors that are equal bit for bit once, where that saves three quarters of them, as on lattices
- * beyond a few thousand particles; else it leaves all as it is. Before pairs are narrowed. */
+ * of sbp2 from a few hundred particles on; else it leaves all as it is. Before pairs are narrowed. */
 bool solver_stencil_share(struct solver_stencil *stencil, struct solver_error *error);
 /* Rounds pairs to single precision. Those that are opposite stay so, and sums of them are taken in double precision, so
  * that forces are equal and opposite to round-off of a double, and divergence and gradient each other's adjoint. Pairs
