@@ -72,14 +72,18 @@ static inline void store_floats(float *to, vec value)
 #endif
 }
 
-static inline real dot(vec a, vec b)
+static inline real sum_of(vec a)
 {
-    vec product = a * b;
-    real sum = product[0];
+    real sum = a[0];
     for (int i = 1; i < DIM; i++) {
-        sum += product[i];
+        sum += a[i];
     }
     return sum;
+}
+
+static inline real dot(vec a, vec b)
+{
+    return sum_of(a * b);
 }
 
 static inline vec splat(real a)
@@ -171,9 +175,11 @@ static inline struct tensor transpose(struct tensor A)
 }
 
 #if DIM == 3
+/* Its third component stands first until the last shuffle: that is one shuffle fewer. */
 static inline vec cross(vec a, vec b)
 {
-    return (vec){a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.0};
+    vec turned = a * __builtin_shufflevector(b, b, 1, 2, 0, 3) - __builtin_shufflevector(a, a, 1, 2, 0, 3) * b;
+    return __builtin_shufflevector(turned, turned, 1, 2, 0, 3);
 }
 #endif
 

@@ -13,11 +13,11 @@ enum {
                                    : 2,
     FLOPS_TRACE = DIM - 1,
     FLOPS_CONTRACT = (2 * DIM - 1) * LANES + DIM - 1,
-    FLOPS_COFACTOR = DIM == 3 ? 27 : 0, /* crosses are nine; in the plane signs and places change */
-    FLOPS_DETERMINANT = DIM == 3   ? 9 + FLOPS_DOT
+    FLOPS_COFACTOR = DIM == 3 ? 9 * LANES : 0, /* in the plane signs and places change */
+    FLOPS_DETERMINANT = DIM == 3   ? 3 * LANES + FLOPS_DOT
                         : DIM == 2 ? 3
                                    : 0,
-    FLOPS_TENSOR_CROSS = DIM == 3 ? 54 + 3 * LANES : 0,
+    FLOPS_TENSOR_CROSS = DIM == 3 ? 21 * LANES : 0,
     FLOPS_ADD_SCALED = 2 * FLOPS_TENSOR, /* one vector, times each component of another, added to a tensor */
     /* dim_spectral.h: a rotation; as many sweeps as strains usually take */
     FLOPS_ROTATE = 10 + SOLVER_COST_FUNCTION + 18 * DIM,

@@ -100,8 +100,9 @@ static inline void particle_terms(const struct solver_upwind *work, size_t count
     }
     solver_cost_term(terms, flows ? "stress and plastic flow" : "stress", 0, particles * stress);
     solver_cost_once(terms, "length of the step", particles * fastest);
+    bool known = work->frozen || (work->J != NULL && !work->constrained); /* whether it is J > 0 */
     solver_cost_once(terms, "whether the state is whole",
-                     particles * (FLOPS_DOT + FLOPS_CONTRACT + (work->J != NULL ? 0.0 : FLOPS_DETERMINANT)));
+                     particles * (FLOPS_DOT + 2.0 * FLOPS_TENSOR + (known ? 0.0 : FLOPS_DETERMINANT)));
 }
 
 #endif

@@ -108,6 +108,7 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
     }
     if (system->pressure != NULL) {
         system->work.constants = &system->pressure->constants;
+        system->work.constrained = true;
     }
     *out = system;
     return true;
@@ -392,11 +393,7 @@ double solver_upwind_largest_step(const void *of)
 size_t solver_upwind_first_broken(const void *of, size_t begin, size_t end)
 {
     const struct solver_upwind_system *system = of;
-    struct solver_upwind work = system->work;
-    if (system->pressure != NULL) {
-        work.J = NULL; /* it stands for the pressure: the Jacobian is that of F */
-    }
-    return system->loops->first_broken(&work, begin, end);
+    return system->loops->first_broken(&system->work, begin, end);
 }
 
 const char *solver_upwind_complaint(const void *of, size_t a)

@@ -332,9 +332,14 @@ static size_t first_broken(const struct solver_upwind *work, size_t begin, size_
     for (size_t a = begin; a < end; a++) {
         vec v = load(work->v + a * LANES);
         struct tensor F = load_tensor(work->F + a * TENSOR);
-        double J = work->J != NULL ? work->J[a] : determinant(F);
+        vec squares = v * v;
+        for (int I = 0; I < DIM; I++) {
+            squares += F.column[I] * F.column[I];
+        }
+        bool evolved = work->J != NULL && !work->constrained;
+        double J = evolved ? work->J[a] : work->frozen ? 1.0 : determinant(F);
         bool inverted = !work->frozen && !(J > 0.0);
-        if (inverted || !isfinite(J) || !isfinite(dot(v, v)) || !isfinite(contract(F, F))) {
+        if (inverted || !isfinite(J) || !isfinite(sum_of(squares))) {
             return a;
         }
     }

@@ -19,6 +19,7 @@ struct SOLVER_WORK {
     bool evolves_H;                                    /* {p,F,H,J} */
     bool frozen;      /* linear kinematics: H = I in the equation of J, normals n = N */
     bool whole_jump;  /* dissipation of J by the jump of the whole stress, as printed in eq. 27 */
+    bool constrained; /* J stands for the pressure: the Jacobian is that of F */
     bool far;         /* what pairs read of neighbours is more than the processor's own cache holds */
     bool reconstruct; /* linear reconstruction (eq. 34); without it the dissipation is of first order */
     const struct solver_hardening *hardening; /* NULL: nothing is plastic */
