@@ -103,10 +103,13 @@ static void every_scheme(void)
 
 static void every_evolved_set(void)
 {
-    static const char *const settings[] = {"dim=2 evolved=pF", "dim=2 evolved=pFJ", "dim=3 evolved=pFHJ",
+    static const char *const settings[] = {"dim=2 evolved=pF",
+                                           "dim=2 evolved=pFJ",
+                                           "dim=3 evolved=pFHJ",
                                            "dim=2 evolved=pFHJ scheme=jst volume_flux=stress",
                                            "dim=2 evolved=pFJ reconstruction=least-squares",
-                                           "dim=2 evolved=pF precision=single", "dim=3 evolved=pFHJ precision=single"};
+                                           "dim=2 evolved=pF precision=single",
+                                           "dim=3 evolved=pFHJ precision=single"};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
         compare(&(struct plan){driven, settings[i], 5, 11}, 1);
     }
