@@ -17,84 +17,76 @@
 /* DIM_NAME(f) is f_3d_avx2 for the dimension and path (path.h) that are compiled. */
 #define DIM_NAME(name) SOLVER_DIM_EXPAND(name, DIM, PATH)
 
+/* Fields are numbers of double precision, or of single, and so is what is computed with them. */
+#ifdef SINGLE
+enum { IN_SINGLE = 1 };
+typedef float real;
+#else
+enum { IN_SINGLE = 0 };
+typedef double real;
+#endif
+
 #if DIM == 3
 enum { LANES = 4 };
-typedef double vec __attribute__((vector_size(4 * sizeof(double))));
 #elif DIM == 2
 enum { LANES = 2 };
-typedef double vec __attribute__((vector_size(2 * sizeof(double))));
 #elif DIM == 1
 enum { LANES = 1 };
-typedef double vec __attribute__((vector_size(1 * sizeof(double))));
 #else
 #error "DIM must be 1, 2 or 3"
 #endif
+typedef real vec __attribute__((vector_size(LANES * sizeof(real))));
 
-/* To single precision and back. GCC 12 makes __builtin_convertvector of four numbers two conversions of two. */
-typedef float narrow_vec __attribute__((vector_size(LANES * sizeof(float))));
-
-static inline vec widen_vec(narrow_vec a)
-{
-#if DIM == 3 && defined __AVX__
-    return _mm256_cvtps_pd(a);
-#else
-    return __builtin_convertvector(a, vec);
-#endif
-}
-
-static inline narrow_vec narrow_down(vec a)
-{
-#if DIM == 3 && defined __AVX__
-    return _mm256_cvtpd_ps(a);
-#else
-    return __builtin_convertvector(a, narrow_vec);
-#endif
-}
-
-/* Fields are stored in double precision, or in single, and computed with in double. */
-#ifdef SINGLE
-enum { IN_SINGLE = 1 };
-typedef float stored;
-
-static inline vec load(const stored *from)
-{
-    return widen_vec(*(const narrow_vec *)from);
-}
-
-static inline void store(stored *to, vec value)
-{
-    *(narrow_vec *)to = narrow_down(value);
-}
-#else
-enum { IN_SINGLE = 0 };
-typedef double stored;
-
-static inline vec load(const stored *from)
+static inline vec load(const real *from)
 {
     return *(const vec *)from;
 }
 
-static inline void store(stored *to, vec value)
+static inline void store(real *to, vec value)
 {
     *(vec *)to = value;
 }
-#endif
 
-static inline double sum_of(vec a)
+/* LANES numbers of single precision, anywhere. GCC 12 makes __builtin_convertvector of four two conversions of two. */
+static inline vec load_floats(const float *from)
 {
-    double sum = a[0];
+    typedef float floats __attribute__((vector_size(LANES * sizeof(float)), aligned(sizeof(float))));
+#if defined SINGLE
+    return *(const floats *)from;
+#elif DIM == 3 && defined __AVX__
+    return _mm256_cvtps_pd(*(const floats *)from);
+#else
+    return __builtin_convertvector(*(const floats *)from, vec);
+#endif
+}
+
+static inline void store_floats(float *to, vec value)
+{
+    typedef float floats __attribute__((vector_size(LANES * sizeof(float)), aligned(sizeof(float))));
+#if defined SINGLE
+    *(floats *)to = value;
+#elif DIM == 3 && defined __AVX__
+    *(floats *)to = _mm256_cvtpd_ps(value);
+#else
+    *(floats *)to = __builtin_convertvector(value, floats);
+#endif
+}
+
+static inline real sum_of(vec a)
+{
+    real sum = a[0];
     for (int i = 1; i < DIM; i++) {
         sum += a[i];
     }
     return sum;
 }
 
-static inline double dot(vec a, vec b)
+static inline real dot(vec a, vec b)
 {
     return sum_of(a * b);
 }
 
-static inline vec splat(double a)
+static inline vec splat(real a)
 {
 #if DIM == 3
     return (vec){a, a, a, a};
@@ -110,7 +102,7 @@ struct tensor {
     vec column[DIM];
 };
 
-static inline struct tensor load_tensor(const stored *from)
+static inline struct tensor load_tensor(const real *from)
 {
     struct tensor T;
     for (int I = 0; I < DIM; I++) {
@@ -119,7 +111,7 @@ static inline struct tensor load_tensor(const stored *from)
     return T;
 }
 
-static inline void store_tensor(stored *to, struct tensor T)
+static inline void store_tensor(real *to, struct tensor T)
 {
     for (int I = 0; I < DIM; I++) {
         store(to + I * LANES, T.column[I]);
@@ -136,7 +128,7 @@ static inline struct tensor identity(void)
 }
 
 /* F and H, which lack the identity in single precision. */
-static inline struct tensor load_measure(const stored *from)
+static inline struct tensor load_measure(const real *from)
 {
     struct tensor T = load_tensor(from);
 #ifdef SINGLE
@@ -148,9 +140,9 @@ static inline struct tensor load_measure(const stored *from)
     return T;
 }
 
-static inline double trace(struct tensor A)
+static inline real trace(struct tensor A)
 {
-    double sum = A.column[0][0];
+    real sum = A.column[0][0];
     for (int I = 1; I < DIM; I++) {
         sum += A.column[I][I];
     }
@@ -158,13 +150,13 @@ static inline double trace(struct tensor A)
 }
 
 /* A : B */
-static inline double contract(struct tensor A, struct tensor B)
+static inline real contract(struct tensor A, struct tensor B)
 {
     vec sum = A.column[0] * B.column[0];
     for (int I = 1; I < DIM; I++) {
         sum += A.column[I] * B.column[I];
     }
-    double total = sum[0];
+    real total = sum[0];
     for (int i = 1; i < DIM; i++) {
         total += sum[i];
     }
@@ -224,7 +216,7 @@ static inline struct tensor cofactor(struct tensor F)
 #endif
 }
 
-static inline double determinant(struct tensor F)
+static inline real determinant(struct tensor F)
 {
 #if DIM == 3
     return dot(F.column[0], cross(F.column[1], F.column[2]));
@@ -241,7 +233,7 @@ static inline struct tensor from_rows(const double *rows)
     struct tensor T = {{{0}}};
     for (int i = 0; i < DIM; i++) {
         for (int I = 0; I < DIM; I++) {
-            T.column[I][i] = rows[i * DIM + I];
+            T.column[I][i] = (real)rows[i * DIM + I];
         }
     }
     return T;

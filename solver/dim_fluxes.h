@@ -10,7 +10,7 @@
  * materials meet. */
 struct impedances {
     wide p, s;
-    double shear[GROUP], bulk[GROUP]; /* shares of mu and kappa in the square of z_p, at rest */
+    real shear[GROUP], bulk[GROUP]; /* shares of mu and kappa in the square of z_p, at rest */
 };
 
 /* A constant of particles. */
@@ -29,8 +29,8 @@ static inline __attribute__((always_inline)) struct impedances impedances(const 
     for (int g = 0; shares && g < GROUP; g++) {
         const struct solver_material_constants *of = work->constants + at[g] * work->stride;
         double modulus = of->zp * of->cp;
-        z.shear[g] = 4.0 / 3.0 * of->mu / modulus;
-        z.bulk[g] = of->kappa / modulus;
+        z.shear[g] = (real)(4.0 / 3.0 * of->mu / modulus);
+        z.bulk[g] = (real)(of->kappa / modulus);
     }
     return z;
 }
@@ -52,20 +52,20 @@ static inline __attribute__((always_inline)) wide softening(const struct solver_
                                                             const struct pairs *pairs, const struct impedances *z,
                                                             wide turned, wide lengths)
 {
-    double each[GROUP];
+    real each[GROUP];
     for (int g = 0; g < GROUP; g++) {
-        double t = turned[g * LANES];
-        double of_lengths = lengths[g * LANES];
-        double bulk = z->bulk[g];
+        real t = turned[g * LANES];
+        real of_lengths = lengths[g * LANES];
+        real bulk = z->bulk[g];
         bool carried = true;
         if (work->stiffness != NULL) {
-            double of_a = (double)work->stiffness[group->at[g]];
-            double of_b = (double)work->stiffness[pairs->b[g]];
-            carried = of_a > 0.0 && of_b > 0.0;
+            real of_a = work->stiffness[group->at[g]];
+            real of_b = work->stiffness[pairs->b[g]];
+            carried = of_a > 0 && of_b > 0;
             bulk *= of_a > of_b ? of_a : of_b;
         }
-        double softened = sqrt(of_lengths / (z->shear[g] * of_lengths + bulk * (t * t)));
-        each[g] = carried ? softened : 0.0;
+        real softened = (real)sqrt(of_lengths / (z->shear[g] * of_lengths + bulk * (t * t)));
+        each[g] = carried ? softened : 0;
     }
     return join_each(each);
 }
@@ -91,10 +91,10 @@ static inline wide traction_jump(const struct solver_upwind *work, const size_t 
     wide traction = {0};
     wide half = 0.5 * distance;
     for (int I = 0; I < DIM; I++) {
-        const stored *P = work->P + I * LANES;
+        const real *P = work->P + I * LANES;
         wide jump = gather(P, TENSOR, b) - gather(P, TENSOR, a);
         for (int K = 0; reconstruct && K < DIM; K++) {
-            const stored *slopes = work->P_gradient + K * TENSOR + I * LANES;
+            const real *slopes = work->P_gradient + K * TENSOR + I * LANES;
             wide slope = gather(slopes, (size_t)DIM * TENSOR, a) + gather(slopes, (size_t)DIM * TENSOR, b);
             jump -= spread(half, K) * slope;
         }
@@ -115,7 +115,7 @@ static inline __attribute__((always_inline)) wide pair_area(const struct solver_
     wide area = IN_SINGLE ? distance : (wide){0}; /* of the identities */
     wide half = 0.5 * distance;
     for (int I = 0; I < DIM; I++) {
-        const stored *cofactor = work->cofactor + I * LANES;
+        const real *cofactor = work->cofactor + I * LANES;
         area += (gather(cofactor, TENSOR, a) + gather(cofactor, TENSOR, b)) * spread(half, I);
     }
     return area;
@@ -143,7 +143,7 @@ static inline __attribute__((always_inline)) void add_volume_flux(const struct s
     }
     sums->volume += by_volume * (gather_scalars(work->pressure, pairs->b) - gather_scalars(work->pressure, group->at));
     if (terms.reconstruct) {
-        const stored *slopes = work->pressure_gradient;
+        const real *slopes = work->pressure_gradient;
         wide slope = gather(slopes, LANES, group->at) + gather(slopes, LANES, pairs->b);
         sums->slopes += by_volume * (slope * distance);
     }
@@ -205,7 +205,7 @@ static inline __attribute__((always_inline)) void combine(const struct pair_sums
         of[g] = (struct sums){.force = forces[g], .dissipation = dissipations[g], .volume = sums->volume[g * LANES]};
     }
     if (terms.volume) {
-        wide by_component = terms.whole ? sums->tractions : -0.5 * sums->slopes;
+        wide by_component = terms.whole ? sums->tractions : (real)-0.5 * sums->slopes;
         for (int i = 0; i < WIDTH; i++) { /* lanes beyond DIM are zero */
             of[i / LANES].volume += by_component[i];
         }

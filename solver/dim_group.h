@@ -8,13 +8,13 @@
 
 /* In space 512 bits for two particles were no faster than 256 for one: what is saved of arithmetic, putting the vectors
  * of two neighbours together takes. */
-#if DIM == 2 && defined __AVX__
+#if DIM == 2 && defined __AVX__ && !defined SINGLE
 #define GROUP 2
 #else
 #define GROUP 1
 #endif
 
-typedef double wide __attribute__((vector_size(GROUP * LANES * sizeof(double))));
+typedef real wide __attribute__((vector_size(GROUP * LANES * sizeof(real))));
 
 #if GROUP == 1
 static inline wide join(const vec part[GROUP])
@@ -22,7 +22,7 @@ static inline wide join(const vec part[GROUP])
     return part[0];
 }
 
-static inline wide join_each(const double each[GROUP])
+static inline wide join_each(const real each[GROUP])
 {
     return splat(each[0]);
 }
@@ -37,7 +37,7 @@ static inline wide join(const vec part[GROUP])
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(part[0]), part[1], 1);
 }
 
-static inline wide join_each(const double each[GROUP])
+static inline wide join_each(const real each[GROUP])
 {
     return _mm256_blend_pd(_mm256_set1_pd(each[0]), _mm256_set1_pd(each[1]), 0xc);
 }
@@ -106,7 +106,7 @@ static inline void spread_dots(wide a, wide b, wide c, wide d, wide *ab, wide *c
 }
 
 /* Vectors of a field, `stride` apart; numbers in every lane of their part, of an array and of a scalar field. */
-static inline __attribute__((always_inline)) wide gather(const stored *field, size_t stride, const size_t at[GROUP])
+static inline __attribute__((always_inline)) wide gather(const real *field, size_t stride, const size_t at[GROUP])
 {
     vec part[GROUP];
     for (int g = 0; g < GROUP; g++) {
@@ -118,23 +118,23 @@ static inline __attribute__((always_inline)) wide gather(const stored *field, si
 static inline __attribute__((always_inline)) wide gather_each(const double *field, size_t stride,
                                                               const size_t at[GROUP])
 {
-    double each[GROUP];
+    real each[GROUP];
     for (int g = 0; g < GROUP; g++) {
-        each[g] = field[at[g] * stride];
+        each[g] = (real)field[at[g] * stride];
     }
     return join_each(each);
 }
 
-static inline __attribute__((always_inline)) wide gather_scalars(const stored *field, const size_t at[GROUP])
+static inline __attribute__((always_inline)) wide gather_scalars(const real *field, const size_t at[GROUP])
 {
-    double each[GROUP];
+    real each[GROUP];
     for (int g = 0; g < GROUP; g++) {
         each[g] = field[at[g]];
     }
     return join_each(each);
 }
 
-static inline __attribute__((always_inline)) void scatter(stored *field, size_t stride, const size_t at[GROUP], wide a)
+static inline __attribute__((always_inline)) void scatter(real *field, size_t stride, const size_t at[GROUP], wide a)
 {
     vec part[GROUP];
     take_apart(a, part);

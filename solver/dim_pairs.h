@@ -80,9 +80,9 @@ static inline __attribute__((always_inline)) void weights_at(const double *weigh
 
 static inline __attribute__((always_inline)) wide weight(const double *const from[GROUP], int I)
 {
-    double each[GROUP];
+    real each[GROUP];
     for (int g = 0; g < GROUP; g++) {
-        each[g] = from[g][I];
+        each[g] = (real)from[g][I];
     }
     return join_each(each);
 }
@@ -90,17 +90,21 @@ static inline __attribute__((always_inline)) wide weight(const double *const fro
 /* Weights that are `stride` numbers apart, DIM of each pair or more. */
 static inline __attribute__((always_inline)) struct weights load_weights(const double *const from[GROUP], size_t stride)
 {
-    typedef vec loose __attribute__((aligned(sizeof(double))));
     struct weights w;
     vec together[GROUP];
     for (int g = 0; g < GROUP; g++) {
         together[g] = (vec){0};
         for (int I = 0; I < DIM; I++) {
-            together[g][I] = from[g][I];
+            together[g][I] = (real)from[g][I];
         }
+#ifndef SINGLE
+        typedef vec loose __attribute__((aligned(sizeof(double))));
         if (stride >= LANES) {
             together[g] = *(const loose *)from[g];
         }
+#else
+        (void)stride;
+#endif
     }
     w.together = join(together);
     for (int I = 0; I < DIM; I++) {
@@ -115,19 +119,18 @@ static inline __attribute__((always_inline)) struct pair load_narrow(const struc
     static const float none[PAIR] = {0};
     struct pair pair;
     vec together[GROUP];
-    double A[GROUP];
+    real A[GROUP];
     for (int g = 0; g < GROUP; g++) {
         const float *from = pairs->idle[g] ? none : work->narrow + pairs->record[g] * PAIR;
 #if DIM == 3
-        typedef narrow_vec loose __attribute__((aligned(sizeof(float))));
-        together[g] = widen_vec(*(const loose *)from);
+        together[g] = load_floats(from);
 #else
         together[g] = (vec){0};
         for (int I = 0; I < DIM; I++) {
-            together[g][I] = (double)from[I];
+            together[g][I] = (real)from[I];
         }
 #endif
-        A[g] = (double)from[DIM];
+        A[g] = (real)from[DIM];
     }
     pair.C.together = join(together);
     for (int I = 0; I < DIM; I++) {

@@ -17,25 +17,25 @@ static inline size_t pair_shift(const struct solver_upwind *work, size_t a)
 struct sums {
     vec force;       /* twice the internal force: sum_b P_b D_ab + P_a sum_b C_ab */
     vec dissipation; /* twice V_a D(p_a) (eq. 30) */
-    double volume;   /* 2 z_p V_a D(J_a) (eq. 30) */
+    real volume;     /* 2 z_p V_a D(J_a) (eq. 30) */
 };
 
 static inline __attribute__((always_inline)) void finish(const struct solver_upwind *work, size_t a, struct sums sums)
 {
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
-    double per_V = work->unit / work->V[a];
+    real per_V = (real)(work->unit / work->V[a]);
     for (int I = 0; I < DIM; I++) {
-        sums.force += load(work->P + a * TENSOR + I * LANES) * work->row_sum[a * DIM + (size_t)I];
+        sums.force += load(work->P + a * TENSOR + I * LANES) * (real)work->row_sum[a * DIM + (size_t)I];
     }
-    store(work->v_rate + a * LANES, (0.5 * per_V / of_a->rho) * (sums.force + sums.dissipation));
+    store(work->v_rate + a * LANES, (real)(0.5 * per_V / of_a->rho) * (sums.force + sums.dissipation));
     if (work->lost != NULL) {
         work->lost[2 * a] = -0.5 * dot(load(work->v + a * LANES), sums.dissipation);
         work->lost[2 * a + 1] = sums.volume / (2.0 * of_a->zp);
     }
     struct tensor G = load_tensor(work->F_rate + a * TENSOR);
     if (work->evolves_J) {
-        double compression = work->frozen ? trace(G) : contract(load_measure(work->cofactor + a * TENSOR), G);
-        work->J_rate[a] = (stored)(compression + sums.volume * per_V / (2.0 * of_a->zp));
+        real compression = work->frozen ? trace(G) : contract(load_measure(work->cofactor + a * TENSOR), G);
+        work->J_rate[a] = (real)(compression + sums.volume * per_V / (2.0 * of_a->zp));
     }
     if (work->evolves_H) {
         struct tensor F = work->frozen ? identity() : load_measure(work->F + a * TENSOR);

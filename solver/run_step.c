@@ -68,8 +68,9 @@ static bool evaluate(struct solver_run *run, int s, double dt, double *power, st
 }
 
 /* One stage's update of `count` numbers. The first stage of every integrator sets out from the start of the step
- * itself. */
-static inline __attribute__((always_inline)) void update_numbers(double *restrict U, const double *restrict start,
+ * itself.
+ */
+static inline __attribute__((always_inline)) void update_entries(double *restrict U, const double *restrict start,
                                                                  const double *restrict rate, double *restrict sum,
                                                                  size_t count, const struct solver_stage *stage,
                                                                  double dt)
@@ -101,11 +102,11 @@ static inline __attribute__((always_inline)) void update_numbers(double *restric
 __attribute__((target("avx2"))) static void update_wide(double *U, const double *start, const double *rate, double *sum,
                                                         size_t count, const struct solver_stage *stage, double dt)
 {
-    update_numbers(U, start, rate, sum, count, stage, dt);
+    update_entries(U, start, rate, sum, count, stage, dt);
 }
 #endif
 
-static void update_doubles(double *U, const double *start, const double *rate, double *sum, size_t count,
+static void update_numbers(double *U, const double *start, const double *rate, double *sum, size_t count,
                            const struct solver_stage *stage, double dt)
 {
 #ifdef SOLVER_WIDE_PATHS
@@ -114,7 +115,7 @@ static void update_doubles(double *U, const double *start, const double *rate, d
         return;
     }
 #endif
-    update_numbers(U, start, rate, sum, count, stage, dt);
+    update_entries(U, start, rate, sum, count, stage, dt);
 }
 
 /* The same of a field, for a piece of the particles. What has no rate of its own has the v of the stage's beginning,
@@ -133,7 +134,7 @@ static void update_field(const struct solver_state *state, const struct solver_f
                                     state->single.sum != NULL ? state->single.sum + first : NULL, count, stage, dt);
     } else {
         double *v = begins ? state->start : state->U;
-        update_doubles(state->U + first, state->start + first, (field->rate != NULL ? state->rate : v) + of_rate,
+        update_numbers(state->U + first, state->start + first, (field->rate != NULL ? state->rate : v) + of_rate,
                        state->sum != NULL ? state->sum + first : NULL, count, stage, dt);
     }
 }

@@ -162,7 +162,7 @@ X("history", INTEGER, AT(history), 1, 100000, 0, "", "200", "whole number in [1,
 X("balance", FLAG, AT(balance), 0, 0, 0, "", "false", "true or false",                                                 \
   "the energy that numerical dissipation and a rigid wall take is measured, and a column of the history")              \
 X("precision", WORD, AT(precision), 0, 0, 0, "double mixed single", "double", "one of double, mixed, single",                    \
-  "mixed stores pair vectors in single precision, single all fields as well; both compute in double (upwind)")  \
+  "mixed keeps pair vectors in single precision, and sums in double; single all fields, and sums of pairs (upwind)")  \
 X("threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
   "threads; 0: as many as there are cores and the work is worth")                                                     \
 X("initial.from", WORD, AT(initial_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",             \

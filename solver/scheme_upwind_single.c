@@ -1,6 +1,7 @@
-/* The scheme `upwind` with its state in single precision (state.h). Loops over pairs have a form of their own
- * (upwind_single_dim.c); all else is done by the loops in double precision, for a few particles at a time whose fields
- * are copied to where they stay in cache: a window. */
+/* The scheme `upwind` with its state in single precision (state.h). Loops over pairs compute in it too
+ * (upwind_single_dim.c): differences of neighbours, which lose nothing by it that was not lost when the neighbours were
+ * stored. All else is done by the loops in double precision, for a few particles at a time whose fields are copied to
+ * where they stay in cache: a window. */
 #include "solver/pieces.h"
 #include "solver/scheme_upwind.h"
 #include "solver/single.h"
@@ -31,11 +32,26 @@ static void place_centre(struct system *system)
     }
 }
 
+/* Products of four lengths between neighbours, and of two impedances, must be floats; with room for what deforms. */
+static bool fits(const struct solver_body *body, struct solver_error *error)
+{
+    double h = body->cloud->spacing;
+    return (h >= 1e-7 && h <= 1e7) ||
+           solver_fail(error, SOLVER_BAD_INPUT,
+                       "%s: precision: single computes with lengths in metres, whose fourth power must be a number of "
+                       "single precision; expected a spacing in [1e-7, 1e7] m, got %g; take double, mixed or other "
+                       "units",
+                       body->scene->path, h);
+}
+
 static bool create(const struct solver_body *body, void **out, struct solver_error *error)
 {
     static const struct solver_upwind_single_loops *const loops[][3] = SOLVER_LOOPS(solver_upwind_single);
     static const struct solver_single_loops *const convert[][3] = SOLVER_LOOPS(solver_single);
     void *made = NULL;
+    if (!fits(body, error)) {
+        return false;
+    }
     if (!solver_upwind_create(body, sizeof(struct system), &made, error) || made == NULL) {
         return false;
     }

@@ -1,33 +1,71 @@
 #include "solver/single.h"
 
-#define SINGLE
 #include "solver/dim.h"
 
-static void update(float *restrict U, const float *restrict start, const float *restrict rate, float *restrict sum,
-                   size_t count, const struct solver_stage *stage, double dt)
+#include <stdbool.h>
+#include <string.h>
+
+/* A stage of LANES numbers. */
+static inline __attribute__((always_inline)) void update_lanes(float *U, const float *start, const float *rate,
+                                                               float *sum, const struct solver_stage *stage, double dt,
+                                                               bool begins)
 {
-    if (stage->time == 0.0 && sum == NULL) {
-        for (size_t i = 0; i < count; i++) {
-            U[i] = (float)((double)start[i] + dt * stage->rate * (double)rate[i]);
+    vec from = load_floats(start);
+    vec R = load_floats(rate);
+    vec change = stage->rate * R;
+    vec kept = from;
+    if (!begins) {
+        kept += stage->keep * (load_floats(U) - from);
+    }
+    if (sum != NULL) {
+        vec S = stage->accumulate * R;
+        if (!begins) {
+            vec before = load_floats(sum);
+            change += stage->sum * before;
+            S += before;
         }
-    } else if (stage->time == 0.0) {
-        for (size_t i = 0; i < count; i++) {
-            U[i] = (float)((double)start[i] + dt * stage->rate * (double)rate[i]);
-            sum[i] = (float)(stage->accumulate * (double)rate[i]);
+        store_floats(sum, S);
+    }
+    store_floats(U, kept + dt * change);
+}
+
+static inline __attribute__((always_inline)) void update_all(float *U, const float *start, const float *rate,
+                                                             float *sum, size_t count, const struct solver_stage *stage,
+                                                             double dt, bool begins)
+{
+    size_t i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        update_lanes(U + i, start + i, rate + i, sum != NULL ? sum + i : NULL, stage, dt, begins);
+    }
+    if (i < count) { /* fewer than LANES are left */
+        float rest[4][LANES] = {{0}};
+        size_t size = (count - i) * sizeof(float);
+        memcpy(rest[0], U + i, size);
+        memcpy(rest[1], start + i, size);
+        memcpy(rest[2], rate + i, size);
+        if (sum != NULL) {
+            memcpy(rest[3], sum + i, size);
         }
+        update_lanes(rest[0], rest[1], rest[2], sum != NULL ? rest[3] : NULL, stage, dt, begins);
+        memcpy(U + i, rest[0], size);
+        if (sum != NULL) {
+            memcpy(sum + i, rest[3], size);
+        }
+    }
+}
+
+static void update(float *U, const float *start, const float *rate, float *sum, size_t count,
+                   const struct solver_stage *stage, double dt)
+{
+    bool begins = stage->time == 0.0;
+    if (begins && sum == NULL) {
+        update_all(U, start, rate, NULL, count, stage, dt, true);
+    } else if (begins) {
+        update_all(U, start, rate, sum, count, stage, dt, true);
     } else if (sum == NULL) {
-        for (size_t i = 0; i < count; i++) {
-            double from = (double)start[i];
-            U[i] = (float)(from + stage->keep * ((double)U[i] - from) + dt * stage->rate * (double)rate[i]);
-        }
+        update_all(U, start, rate, NULL, count, stage, dt, false);
     } else {
-        for (size_t i = 0; i < count; i++) {
-            double from = (double)start[i];
-            double R = (double)rate[i];
-            double S = (double)sum[i];
-            U[i] = (float)(from + stage->keep * ((double)U[i] - from) + dt * (stage->rate * R + stage->sum * S));
-            sum[i] = (float)(S + stage->accumulate * R);
-        }
+        update_all(U, start, rate, sum, count, stage, dt, false);
     }
 }
 
@@ -47,10 +85,11 @@ static void narrow(const double *restrict from, float *restrict to, size_t count
 
 static void widen_measures(const float *from, double *to, size_t count)
 {
+    struct tensor one = identity();
     for (size_t a = 0; a < count; a++) {
-        struct tensor T = load_measure(from + a * DIM * LANES);
         for (size_t I = 0; I < DIM; I++) {
-            *(vec *)(to + (a * DIM + I) * LANES) = T.column[I];
+            size_t at = (a * DIM + I) * LANES;
+            store(to + at, load_floats(from + at) + one.column[I]);
         }
     }
 }
@@ -59,11 +98,10 @@ static void narrow_measures(const double *from, float *to, size_t count)
 {
     struct tensor one = identity();
     for (size_t a = 0; a < count; a++) {
-        struct tensor T;
         for (size_t I = 0; I < DIM; I++) {
-            T.column[I] = *(const vec *)(from + (a * DIM + I) * LANES) - one.column[I];
+            size_t at = (a * DIM + I) * LANES;
+            store_floats(to + at, load(from + at) - one.column[I]);
         }
-        store_tensor(to + a * DIM * LANES, T);
     }
 }
 

@@ -192,7 +192,9 @@ void solver_state_terms(const struct solver_state *state, const struct solver_in
     double later = integrator->needs_sum ? 10 : 6;
     double entries = 0.0;
     for (size_t i = 0; i < state->field_count && state->field[i].evolved; i++) {
-        entries += (double)(state->count * state->field[i].width);
+        size_t numbers = state->count * state->field[i].width;
+        size_t at_once = state->in_single ? state->lanes : 1; /* single_dim.c */
+        entries += (double)((numbers + at_once - 1) / at_once * at_once);
     }
     solver_cost_once(terms, "stages of the integrator", entries * (first + later * (double)(integrator->stages - 1)));
 }

@@ -26,9 +26,10 @@ load_weighting(const struct solver_upwind *work, enum weighting weighting, const
     return load_weights(from, DIM);
 }
 
-static inline __attribute__((always_inline)) void
-add_difference(const struct solver_upwind *work, enum weighting weighting, const struct group *group, size_t k,
-               bool idle, const stored *field, wide field_a, const stored *scalar, wide scalar_a, struct gradients *G)
+static inline __attribute__((always_inline)) void add_difference(const struct solver_upwind *work,
+                                                                 enum weighting weighting, const struct group *group,
+                                                                 size_t k, bool idle, const real *field, wide field_a,
+                                                                 const real *scalar, wide scalar_a, struct gradients *G)
 {
     struct pairs pairs = pairs_of(work, group, k, idle);
     struct weights w = load_weighting(work, weighting, &pairs);
@@ -45,7 +46,7 @@ add_difference(const struct solver_upwind *work, enum weighting weighting, const
  * wait for the last; on a line there are too few for that. */
 static inline __attribute__((always_inline)) struct gradients sum_gradients(const struct solver_upwind *work,
                                                                             const struct group *group,
-                                                                            const stored *field, const stored *scalar,
+                                                                            const real *field, const real *scalar,
                                                                             enum weighting weighting)
 {
     struct gradients even = {.of_scalar = {0}};
@@ -72,18 +73,18 @@ static inline __attribute__((always_inline)) struct gradients sum_gradients(cons
 
 /* The same of the stress: DIM tensors, derivative along each reference axis, scaled. */
 static inline void stress_gradient(const struct solver_upwind *work, size_t a, const double *weights, size_t stride,
-                                   double scale)
+                                   real scale)
 {
     struct tensor G[DIM] = {{{{0}}}};
     struct tensor P_a = load_tensor(work->P + a * TENSOR);
     size_t shift = weights == work->pair ? pair_shift(work, a) : 0;
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
         const double *w = weights + (ab + shift) * stride;
-        const stored *P_b = work->P + (size_t)work->neighbour[ab] * TENSOR;
+        const real *P_b = work->P + (size_t)work->neighbour[ab] * TENSOR;
         for (int column = 0; column < DIM; column++) {
             vec difference = load(P_b + column * LANES) - P_a.column[column];
             for (int I = 0; I < DIM; I++) {
-                G[I].column[column] += difference * w[I];
+                G[I].column[column] += difference * (real)w[I];
             }
         }
     }
@@ -99,7 +100,7 @@ static inline __attribute__((always_inline)) void store_slope(const struct solve
                                                               const struct group *group, wide slope)
 {
     for (int i = 0; i < WIDTH; i++) {
-        slope[i] = i % LANES < DIM ? slope[i] : 0.0;
+        slope[i] = i % LANES < DIM ? slope[i] : (real)0.0;
     }
     scatter(work->pressure_gradient, LANES, group->at, slope);
 }
@@ -111,7 +112,7 @@ static inline __attribute__((always_inline)) void gradients_with(const struct so
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
-        wide half_per_V = 0.5 * (work->unit / gather_each(work->V, 1, group.at));
+        wide half_per_V = 0.5 * ((real)work->unit / gather_each(work->V, 1, group.at));
         struct gradients G =
             sum_gradients(work, &group, work->v, pressure ? work->pressure : NULL, narrow ? NARROW : WIDE);
         for (int I = 0; I < DIM; I++) {
@@ -125,7 +126,7 @@ static inline __attribute__((always_inline)) void gradients_with(const struct so
 
 static void least_squares_gradients(const struct solver_upwind *work, size_t begin, size_t end)
 {
-    const stored *field = work->pressure_gradient != NULL ? work->pressure : NULL;
+    const real *field = work->pressure_gradient != NULL ? work->pressure : NULL;
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
@@ -157,21 +158,28 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
     }
     for (size_t a = begin; work->P_gradient != NULL && a < end; a++) {
         stress_gradient(work, a, own ? work->pair : work->least_squares, own ? PAIR : DIM,
-                        own ? 0.5 / work->V[a] : 1.0);
+                        (real)(own ? 0.5 / work->V[a] : 1.0));
     }
 }
 
 /* Neighbours lie all over memory, and the work on a pair is shorter than the way there: where that is beyond the
  * processor's own cache, what a neighbour brings is asked for so many pairs ahead; `last` is the pair up to which. */
-enum { AHEAD = 16, LINE = 64 / sizeof(stored) };
+enum { AHEAD = 16, LINE = 64 / sizeof(real) };
 
-static inline void fetch(const struct solver_upwind *work, const stored *slope, const struct group *group, size_t last)
+static inline void fetch(const struct solver_upwind *work, const real *slope, const struct group *group, size_t last)
 {
     for (size_t ab = group->row[0] + AHEAD; ab <= group->last[GROUP - 1] + AHEAD && ab <= last; ab++) {
         size_t b = work->neighbour[ab];
         for (int i = 0; i < TENSOR; i += LINE) {
             __builtin_prefetch(work->P + b * TENSOR + i);
             __builtin_prefetch(slope + b * TENSOR + i);
+        }
+        if (IN_SINGLE) { /* half of them lie across two lines */
+            __builtin_prefetch(work->P + b * TENSOR + TENSOR - 1);
+            __builtin_prefetch(slope + b * TENSOR + TENSOR - 1);
+        }
+        if (IN_SINGLE && !work->frozen) {
+            __builtin_prefetch(work->x + b * LANES);
         }
         __builtin_prefetch(work->v + b * LANES);
         __builtin_prefetch(work->X + b * LANES);
@@ -186,7 +194,7 @@ struct side {
 
 static inline __attribute__((always_inline)) struct side own_side(const struct solver_upwind *work,
                                                                   const struct group *group, struct terms terms,
-                                                                  const stored *x, const stored *slope)
+                                                                  const real *x, const real *slope)
 {
     struct side side = {.x = gather(x, LANES, group->at), .v = gather(work->v, LANES, group->at)};
     side.X = work->X != NULL ? gather(work->X, LANES, group->at) : side.x;
@@ -202,7 +210,7 @@ static inline __attribute__((always_inline)) struct side own_side(const struct s
  * a mean of both jumps, each weighted by the square of the other, so that nothing hangs on which is smaller by a bit.
  */
 static inline wide one_sided_jumps(const struct solver_upwind *work, const struct group *group,
-                                   const struct pairs *pairs, const stored *slope, wide jump, wide difference,
+                                   const struct pairs *pairs, const real *slope, wide jump, wide difference,
                                    wide distance)
 {
     vec jumps[GROUP];
@@ -222,11 +230,11 @@ static inline wide one_sided_jumps(const struct solver_upwind *work, const struc
             by_a[g] -= load(slope + a * TENSOR + I * LANES) * splat(distances[g][I]);
             by_b -= load(slope + b * TENSOR + I * LANES) * splat(distances[g][I]);
         }
-        double of_a = dot(by_a[g], by_a[g]);
-        double of_b = dot(by_b, by_b);
-        double sum = of_a + of_b;
-        double share = sum > 0.0 ? of_b / sum : 0.5;
-        double rest = sum > 0.0 ? of_a / sum : 0.5;
+        real of_a = dot(by_a[g], by_a[g]);
+        real of_b = dot(by_b, by_b);
+        real sum = of_a + of_b;
+        real share = sum > 0 ? of_b / sum : (real)0.5;
+        real rest = sum > 0 ? of_a / sum : (real)0.5;
         jumps[g] = by_a[g] * splat(share) + by_b * splat(rest);
     }
     return join(jumps);
@@ -234,8 +242,8 @@ static inline wide one_sided_jumps(const struct solver_upwind *work, const struc
 
 static inline __attribute__((always_inline)) void add_pairs(const struct solver_upwind *work, const struct group *group,
                                                             const struct pairs *pairs, struct terms terms,
-                                                            const struct side *own, const stored *x,
-                                                            const stored *slope, struct pair_sums *sums)
+                                                            const struct side *own, const real *x, const real *slope,
+                                                            struct pair_sums *sums)
 {
     struct pair pair = load_pair(work, pairs, terms.narrow);
     const double *transposed[GROUP] = {NULL};
@@ -251,7 +259,7 @@ static inline __attribute__((always_inline)) void add_pairs(const struct solver_
     wide jump = gather(work->v, LANES, pairs->b) - own->v;
     struct impedances z = terms.composite ? meet(own->z, impedances(work, pairs->b, false)) : own->z;
     wide difference = jump;
-    wide back = -0.5 * distance;
+    wide back = (real)-0.5 * distance;
     for (int I = 0; I < DIM; I++) {
         wide D = terms.transposed ? weight(transposed, I) : pair.C.each[I];
         sums->force[I] += gather(work->P + I * LANES, TENSOR, pairs->b) * D;
@@ -270,8 +278,8 @@ static inline __attribute__((always_inline)) void sum_pairs(const struct solver_
                                                             size_t last, struct terms terms, struct sums of[GROUP])
 {
     struct pair_sums sums = {.volume = {0}};
-    const stored *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
-    const stored *x = terms.frozen ? work->X : work->x;
+    const real *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
+    const real *x = terms.frozen ? work->X : work->x;
     struct side own = own_side(work, group, terms, x, slope);
     if (work->far) {
         fetch(work, slope, group, last);

@@ -1,4 +1,4 @@
-/* The loops of upwind_dim.c with fields stored in single precision. */
+/* The loops of upwind_dim.c in single precision. */
 #include "solver/upwind.h"
 
 #define SINGLE

@@ -38,6 +38,9 @@ extern unsigned long counted;
 #define hypot(x, y)         COUNTED(20, hypot(x, y))
 #define pow(x, y)           COUNTED(20, pow(x, y))
 
+/* True ones, for what is printed. Floats are counted as doubles are. */
+typedef double plain;
 #define double __float128
+#define float __float128
 
 #endif

@@ -42,8 +42,8 @@ static void expect_in(int dim, const char *more, const char *words, struct slack
     double particles = (double)solver_run_facts(sample.run).particles;
     bool holds = found - declared <= slack.of_a_step && declared - found <= slack.over * declared;
     if (!holds || getenv("COUNTED_ALL") != NULL) {
-        printf("\n    %dD %-70s %9.1f declared, %9.1f found per particle", dim, words, (float)(declared / particles),
-               (float)(found / particles));
+        printf("\n    %dD %-70s %9.1f declared, %9.1f found per particle", dim, words, (plain)(declared / particles),
+               (plain)(found / particles));
     }
     CU_ASSERT(holds);
     finish(&sample);

@@ -158,6 +158,28 @@ static void test_bytes(void)
     }
 }
 
+/* What would overflow, or vanish, is refused. */
+static void test_sizes(void)
+{
+    static const char text[] = "domain = { lower = each(0), upper = each(%g) }\n"
+                               "initial = { velocity = function(X) return first(1e-3, 0, 0) end }\n";
+    for (int large = 0; large < 2; large++) {
+        char body[256];
+        (void)snprintf(body, sizeof body, text, large ? 1e9 : 1e-9);
+        struct solver_error error = refusal(body, "dim=2 precision=single");
+        CU_ASSERT_EQUAL(error.code, SOLVER_BAD_INPUT);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "expected a spacing in [1e-7, 1e7] m"));
+        (void)snprintf(body, sizeof body, text, large ? 1e7 : 1e-6);
+        struct sample sample = start(body, "dim=2 precision=single t_end=1e6");
+        advance(&sample, STEPS);
+        struct solver_output output = output_of(&sample);
+        for (size_t a = 0; a < output.cloud->count; a++) {
+            CU_ASSERT(fabs(output.v[2 * a] - 1e-3) < 1e-8 && fabs(output.v[2 * a + 1]) < 1e-8);
+        }
+        finish(&sample);
+    }
+}
+
 /* A broken particle is named, and the last good state is there. */
 static void test_breakdown(void)
 {
@@ -183,6 +205,7 @@ int main(void)
         {"far away", test_far_away},
         {"momentum and energy", test_conserves},
         {"bytes", test_bytes},
+        {"sizes", test_sizes},
         {"breakdown", test_breakdown},
     };
     return unit_main("single precision", tests, sizeof tests / sizeof *tests);
