@@ -136,7 +136,7 @@ static size_t tensor_width(const struct system *system)
 }
 
 /* Particles from `begin` on, before `end`, with their F, H and J. */
-static void open(const struct system *system, size_t begin, size_t end, struct window *window)
+static void open_window(const struct system *system, size_t begin, size_t end, struct window *window)
 {
     const struct solver_upwind_single *from = &system->work;
     size_t tensor = tensor_width(system);
@@ -171,7 +171,7 @@ static void refresh(void *of, size_t begin, size_t end)
     struct window window;
     memset(window.P, 0, sizeof window.P); /* what pads it stays zero */
     for (size_t first = begin; first < end; first += WINDOW) {
-        open(system, first, end, &window);
+        open_window(system, first, end, &window);
         system->base.loops->stresses(&window.work, 0, window.count);
         system->convert->narrow(window.P, to->P + first * tensor, window.count * tensor);
         if (to->cofactor != NULL && !to->evolves_H) {
@@ -189,7 +189,7 @@ static void refresh(void *of, size_t begin, size_t end)
 static void open_with_v(const struct system *system, size_t begin, size_t end, struct window *window)
 {
     size_t lanes = system->base.loops->lanes;
-    open(system, begin, end, window);
+    open_window(system, begin, end, window);
     system->convert->widen(system->work.v + begin * lanes, window->v, window->count * lanes);
 }
 
@@ -216,7 +216,7 @@ static double fastest_of(const struct system *system, size_t begin, size_t end)
     }
     for (size_t first = begin; first < end; first += WINDOW) {
         struct window window;
-        open(system, first, end, &window);
+        open_window(system, first, end, &window);
         fastest =
             fmax(fastest, work->material->fastest(window.work.constants, work->stride, 0, window.count, window.F));
     }
@@ -294,7 +294,7 @@ static void start_measures(const struct system *system)
     size_t count = system->base.body->cloud->count;
     for (size_t first = 0; first < count; first += WINDOW) {
         struct window window;
-        open(system, first, count, &window);
+        open_window(system, first, count, &window);
         system->base.loops->measures(to->frozen, 0, window.count, window.F, window.H, window.J);
         if (to->H != NULL) {
             system->convert->narrow_measures(window.H, to->H + first * tensor_width(system), window.count);

@@ -194,7 +194,8 @@ void solver_state_terms(const struct solver_state *state, const struct solver_in
     for (size_t i = 0; i < state->field_count && state->field[i].evolved; i++) {
         size_t numbers = state->count * state->field[i].width;
         size_t at_once = state->in_single ? state->lanes : 1; /* single_dim.c */
-        entries += (double)((numbers + at_once - 1) / at_once * at_once);
+        size_t counted = (numbers + at_once - 1) / at_once * at_once;
+        entries += (double)counted;
     }
     solver_cost_once(terms, "stages of the integrator", entries * (first + later * (double)(integrator->stages - 1)));
 }

@@ -54,9 +54,14 @@ struct solver_state {
     } single;
 };
 
+/* Of a number. */
 static inline size_t solver_state_bytes(const struct solver_state *state)
 {
-    return state->in_single ? sizeof(float) : sizeof(double); /* of a number */
+    size_t bytes = sizeof(double);
+    if (state->in_single) {
+        bytes = sizeof(float);
+    }
+    return bytes;
 }
 
 static inline struct solver_vectors solver_state_v(const struct solver_state *state)

@@ -3,4 +3,4 @@
 
 #define SINGLE
 #define solver_upwind solver_upwind_single
-#include "solver/upwind_dim.c"
+#include "solver/upwind_dim.c" // NOLINT(bugprone-suspicious-include): one source text
