@@ -166,10 +166,12 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
  * processor's own cache, what a neighbour brings is asked for so many pairs ahead; `last` is the pair up to which. */
 enum { AHEAD = 16, LINE = 64 / sizeof(real) };
 
-static inline void fetch(const struct solver_upwind *work, const real *slope, const struct group *group, size_t last)
+static inline __attribute__((always_inline)) void fetch(const struct solver_upwind *work, const real *slope,
+                                                        const struct pairs *pairs, size_t last)
 {
-    for (size_t ab = group->row[0] + AHEAD; ab <= group->last[GROUP - 1] + AHEAD && ab <= last; ab++) {
-        size_t b = work->neighbour[ab];
+    for (int g = 0; g < GROUP; g++) {
+        size_t ahead = pairs->ab[g] + AHEAD;
+        size_t b = work->neighbour[ahead < last ? ahead : last];
         for (int i = 0; i < TENSOR; i += LINE) {
             __builtin_prefetch(work->P + b * TENSOR + i);
             __builtin_prefetch(slope + b * TENSOR + i);
@@ -281,16 +283,19 @@ static inline __attribute__((always_inline)) void sum_pairs(const struct solver_
     const real *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
     const real *x = terms.frozen ? work->X : work->x;
     struct side own = own_side(work, group, terms, x, slope);
-    if (work->far) {
-        fetch(work, slope, group, last);
-    }
     size_t k = 0;
     for (; k < group->shortest; k++) {
         struct pairs pairs = pairs_of(work, group, k, false);
+        if (work->far) {
+            fetch(work, slope, &pairs, last);
+        }
         add_pairs(work, group, &pairs, terms, &own, x, slope, &sums);
     }
     for (; GROUP > 1 && k < group->longest; k++) {
         struct pairs pairs = pairs_of(work, group, k, true);
+        if (work->far) {
+            fetch(work, slope, &pairs, last);
+        }
         add_pairs(work, group, &pairs, terms, &own, x, slope, &sums);
     }
     combine(&sums, terms, own.z, of);
