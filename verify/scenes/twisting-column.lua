@@ -47,7 +47,7 @@ gates = {
       ["figure drift"] = 1e-10, ["figure energy rise"] = 1e-12, ["indicator clumping"] = 0.6,
       ["indicator checkerboard"] = 0.2, beside = 0.02 },
     -- 1.8e-2 at n = 4, 4.5e-3 at n = 6, 2.0e-3 at n = 8
-    Omega < 1 and { when = { n = 4, t_end = 0.75 }, ["figure period of torsion"] = 0.02 } or nil,
+    Omega < 1 and { when = { n = 4, t_end = 0.56 }, ["figure period of torsion"] = 0.02 } or nil,
     Omega < 1 and { when = { n = 6, t_end = 0.75 }, ["figure period of torsion"] = 6e-3 } or nil,
 }
 
