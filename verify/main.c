@@ -1,5 +1,6 @@
 /* assay: the command line. Dispatch only; each command stands in its own file. */
 #include "verify/commands.h"
+#include "verify/files.h"
 #include "verify/help.h"
 #include "verify/manual.h"
 #include "verify/signals.h"
@@ -241,11 +242,11 @@ int main(int argc, char **argv)
     bool help = strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
     if (help && argc == 2) {
         print_help(stdout);
-        return VERIFY_PASSED;
+        return flushed(VERIFY_PASSED);
     }
     if (strcmp(word, "--version") == 0) {
         (void)printf("assay %s\nloops for %s\n", verify_version(), solver_path_name(solver_path()));
-        return VERIFY_PASSED;
+        return flushed(VERIFY_PASSED);
     }
     if (strcmp(word, "--manual") == 0) {
         verify_manual(stdout, commands, COMMANDS);
@@ -262,7 +263,10 @@ int main(int argc, char **argv)
     }
     if (options.help) {
         verify_options_help(stdout, command);
-        return VERIFY_PASSED;
+        return flushed(VERIFY_PASSED);
+    }
+    if (options.json != NULL && !verify_file_check(options.json, &error)) { /* before anything is measured */
+        return verify_complain(&error);
     }
     verify_signals_prepare();
     int code = command->run(&options);
