@@ -198,8 +198,7 @@ const struct solver_checkpoint_about *solver_checkpoint_about(const struct solve
  * linear material for one. */
 static const char *without_number(const struct solver_state *state)
 {
-    for (size_t i = 0; i < state->field_count; i++) {
-        const struct solver_field *field = &state->field[i];
+    for (const struct solver_field *field = state->field; field < state->field + state->field_count; field++) {
         for (size_t k = 0; k < field->width * state->count; k++) {
             if (!isfinite(state->in_single ? (double)(*field->single)[k] : (*field->value)[k])) {
                 return field->name;
