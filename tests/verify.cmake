@@ -76,6 +76,10 @@ assay_test(cli-bench-without-stencil LABELS unit COMMAND ${cli} 0 "-        -   
   ${assay} bench swinging-cube --set scheme=ulsph --set n=4)
 assay_test(cli-bench-levels LABELS unit COMMAND ${cli} 0 "-        -              64"
   ${assay} bench swinging-cube --set scheme=ulsph --levels 3,4)
+assay_test(cli-bench-of-what-fits LABELS unit COMMAND ${cli} 0 "sbp4     pF     refused: " ${assay} bench breathing-cylinder
+  --set n=4 --set evolved=pF)
+cli_refuses(bench-of-nothing "single is for antisymmetric stencils" bench swinging-cube --set n=4 --set precision=single
+            --set stencil=sph)
 assay_test(cli-version-path LABELS unit ENVIRONMENT ASSAY_ISA=baseline COMMAND ${cli} 0 "loops for baseline"
   ${assay} --version)
 assay_test(cli-path-refused LABELS unit mustfail ENVIRONMENT ASSAY_ISA=avx1024 COMMAND ${cli} 2

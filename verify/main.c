@@ -120,7 +120,8 @@ static const struct verify_command commands[] = {
      .help =
          "Times steps of a scene for every stencil and evolved set, on one thread and with tvd-rk2 at CFL 0.3 unless\n"
          "--set says otherwise, for each of the levels, and measures the machine's memory bandwidth and arithmetic in\n"
-         "the same run: the roofline. A measurement, not a test: it has no bound to fail.\n\n"
+         "the same run: the roofline. What the scene refuses is said in place of its row. A measurement, not a test:\n"
+         "it has no bound to fail.\n\n"
          "The loops are those for the widest instruction set that the processor knows; the environment variable\n"
          "ASSAY_ISA=baseline, avx2 or avx512 asks for another.\n\n"
          "  assay bench swinging-cube\n"
