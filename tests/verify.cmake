@@ -54,9 +54,11 @@ cli_refuses(foreign-record "CMakeCache.txt" render CMakeCache.txt)
 cli_refuses(json-over-another-file "ends in .json" verify swinging-cube --levels 8 --out test-out/device
             --json /dev/null)
 # Before anything is measured, for which the refusal would come too late.
-foreach(command "verify;rings;--levels;1000" "trade;plastic-wave" "cost;swinging-cube;--set;n=100" "extremes;cfl")
+foreach(command "verify;swinging-cube;--levels;8;--out;test-out/nowhere" "verify;mms;in time;--out;test-out/nowhere"
+                "trade;plastic-wave" "cost;swinging-cube;--set;n=100" "extremes;cfl")
   list(GET command 0 name)
-  assay_test(cli-${name}-json-nowhere LABELS mustfail TIMEOUT 5 COMMAND ${cli} 2 "assay: test-out/none/x.json: cannot write"
+  list(GET command 1 of)
+  assay_test(cli-${name}-${of}-json-nowhere LABELS mustfail TIMEOUT 5 COMMAND ${cli} 2 "assay: test-out/none/x.json: cannot write"
     ${assay} ${command} --json test-out/none/x.json)
 endforeach()
 cli_refuses(out-is-a-file "CMakeCache.txt" run swinging-cube --set n=8 --out CMakeCache.txt)

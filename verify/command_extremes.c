@@ -165,6 +165,9 @@ static bool tell(const struct verify_options *options, const char *word, struct 
     if (options->json == NULL) {
         return run_all(options, word, tally, error);
     }
+    if (!verify_file_check(options->json, error)) {
+        return false;
+    }
     tally->json = open_memstream(&text, &size);
     if (tally->json == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for the report", options->json);

@@ -283,7 +283,8 @@ static bool check_files(const struct work *work, struct solver_error *error)
     const struct verify_options *options = work->trader.options;
     char folder[VERIFY_PATH], path[VERIFY_PATH];
     return verify_out_folder(options, work->scene->name, folder, error) &&
-           verify_path_join(path, folder, "trade", ".tsv", error) && verify_file_check(path, error);
+           verify_path_join(path, folder, "trade", ".tsv", error) && verify_file_check(path, error) &&
+           (options->json == NULL || verify_file_check(options->json, error));
 }
 
 static bool study(struct work *work, struct solver_error *error)

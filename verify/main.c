@@ -1,6 +1,5 @@
 /* assay: the command line. Dispatch only; each command stands in its own file. */
 #include "verify/commands.h"
-#include "verify/files.h"
 #include "verify/help.h"
 #include "verify/manual.h"
 #include "verify/signals.h"
@@ -265,9 +264,6 @@ int main(int argc, char **argv)
     if (options.help) {
         verify_options_help(stdout, command);
         return flushed(VERIFY_PASSED);
-    }
-    if (options.json != NULL && !verify_file_check(options.json, &error)) { /* before anything is measured */
-        return verify_complain(&error);
     }
     verify_signals_prepare();
     int code = command->run(&options);
