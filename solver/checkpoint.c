@@ -194,6 +194,20 @@ const struct solver_checkpoint_about *solver_checkpoint_about(const struct solve
 
 /* --- putting back --- */
 
+/* The first field that holds what is no number; NULL: none does. Of some none is seen in what a step checks, H of a
+ * linear material for one. */
+static const char *without_number(const struct solver_state *state)
+{
+    for (const struct solver_field *field = state->field; field < state->field + state->field_count; field++) {
+        for (size_t k = 0; k < field->width * state->count; k++) {
+            if (!isfinite(state->in_single ? (double)(*field->single)[k] : (*field->value)[k])) {
+                return field->name;
+            }
+        }
+    }
+    return NULL;
+}
+
 /* A sealed file may still have been made up. */
 static bool check(const struct solver_checkpoint *checkpoint, struct solver_run *run, struct solver_error *error)
 {
@@ -204,8 +218,14 @@ static bool check(const struct solver_checkpoint *checkpoint, struct solver_run 
                                   "it stands at t = %g s, step %zu, which is not on the way to t_end = %g s", run->time,
                                   run->step, run->scene->t_end);
     }
-    return solver_run_check(run, &broken) ||
-           solver_keep_refuse(&checkpoint->keeper, error, "its state is broken: %.300s", broken.text);
+    if (!isfinite(run->external) || !isfinite(run->numerical) || !(run->seconds >= 0.0) || !isfinite(run->seconds)) {
+        return solver_keep_refuse(&checkpoint->keeper, error, "its work, dissipation or seconds are no numbers");
+    }
+    if (!solver_run_check(run, &broken)) {
+        return solver_keep_refuse(&checkpoint->keeper, error, "its state is broken: %.300s", broken.text);
+    }
+    const char *field = without_number(&run->state);
+    return field == NULL || solver_keep_refuse(&checkpoint->keeper, error, "its field %s is not finite", field);
 }
 
 bool solver_checkpoint_restore(struct solver_checkpoint *checkpoint, struct solver_run *run, struct solver_error *error)

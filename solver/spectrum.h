@@ -14,8 +14,8 @@ enum { SOLVER_SPECTRUM_LARGEST = 1200 }; /* unknowns: the work grows with their 
 /* Eigenvalues [1/s] about the present state, in *eigenvalue, [count], which the caller frees. The matrix is made of
  * differences of rates, which is exact where these are linear (linear kinematics). Unknowns that nothing depends on,
  * each with the eigenvalue 0, are left out. The run is as it was afterwards. SOLVER_BAD_INPUT where there are too many
- * unknowns, loads or what else makes rates depend on time; SOLVER_NO_MEMORY; SOLVER_BROKE_DOWN where the eigenvalues do
- * not converge. */
+ * unknowns, loads or what else makes rates depend on time, or a state in single precision; SOLVER_NO_MEMORY;
+ * SOLVER_BROKE_DOWN where the eigenvalues do not converge. */
 bool solver_run_spectrum(struct solver_run *run, double complex **eigenvalue, size_t *count,
                          struct solver_error *error);
 

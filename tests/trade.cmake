@@ -68,7 +68,6 @@ trade_refuses(vary-twice "given twice" trade plastic-wave --vary cfl=0.3 --vary 
 trade_refuses(vary-nothing "expected up to 16 values" trade plastic-wave --vary cfl=0.3,,0.8)
 trade_refuses(budget-twice "--budget: given twice" trade plastic-wave --budget 1 --budget 2)
 trade_refuses(levels-twice "--levels: given twice" trade plastic-wave --levels 20 --levels 40)
-trade_refuses(no-folder-for-json "test-out/none/x.json: cannot write" trade plastic-wave --json test-out/none/x.json)
 trade_refuses(wrong-budget "a number of seconds above 0" trade plastic-wave --budget -1)
 trade_refuses(wrong-error "there is no error called \"q\"" trade plastic-wave --error q)
 trade_refuses(n-in-a-trade "say which by --levels" trade plastic-wave --set n=100)

@@ -53,10 +53,22 @@ cli_refuses(gate-without-oracle "\"p_l1\" needs the scene's key oracle" verify $
 cli_refuses(foreign-record "CMakeCache.txt" render CMakeCache.txt)
 cli_refuses(json-over-another-file "ends in .json" verify swinging-cube --levels 8 --out test-out/device
             --json /dev/null)
+# Before anything is measured, for which the refusal would come too late.
+foreach(command "verify;swinging-cube;--levels;8;--out;test-out/nowhere" "verify;mms;in time;--out;test-out/nowhere"
+                "trade;plastic-wave" "cost;swinging-cube;--set;n=100" "extremes;cfl")
+  list(GET command 0 name)
+  list(GET command 1 of)
+  assay_test(cli-${name}-${of}-json-nowhere LABELS mustfail TIMEOUT 5 COMMAND ${cli} 2 "assay: test-out/none/x.json: cannot write"
+    ${assay} ${command} --json test-out/none/x.json)
+endforeach()
 cli_refuses(out-is-a-file "CMakeCache.txt" run swinging-cube --set n=8 --out CMakeCache.txt)
 
 foreach(command list run verify render golden compare bench)
   assay_test(cli-help-${command} LABELS unit COMMAND ${cli} 0 "usage: assay ${command}" ${assay} ${command} --help)
+endforeach()
+foreach(word --help --version list)
+  assay_test(cli-full-disk-${word} LABELS mustfail COMMAND ${cli} 2 "standard output could not be written" sh -c
+    "${assay} ${word} >/dev/full")
 endforeach()
 assay_test(cli-list LABELS unit COMMAND ${cli} 0 "Swinging cube" ${assay} list)
 assay_test(cli-list-awaited LABELS unit COMMAND ${cli} 0 "the solver lacks equations of state: nothing is verified by it yet"
@@ -66,6 +78,10 @@ assay_test(cli-bench-without-stencil LABELS unit COMMAND ${cli} 0 "-        -   
   ${assay} bench swinging-cube --set scheme=ulsph --set n=4)
 assay_test(cli-bench-levels LABELS unit COMMAND ${cli} 0 "-        -              64"
   ${assay} bench swinging-cube --set scheme=ulsph --levels 3,4)
+assay_test(cli-bench-of-what-fits LABELS unit COMMAND ${cli} 0 "sbp4     pF     refused: " ${assay} bench breathing-cylinder
+  --set n=4 --set evolved=pF)
+cli_refuses(bench-of-nothing "single is for antisymmetric stencils" bench swinging-cube --set n=4 --set precision=single
+            --set stencil=sph)
 assay_test(cli-version-path LABELS unit ENVIRONMENT ASSAY_ISA=baseline COMMAND ${cli} 0 "loops for baseline"
   ${assay} --version)
 assay_test(cli-path-refused LABELS unit mustfail ENVIRONMENT ASSAY_ISA=avx1024 COMMAND ${cli} 2

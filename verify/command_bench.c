@@ -78,22 +78,31 @@ static bool row(const struct verify_options *options, int n, const char *stencil
     return done;
 }
 
-/* A row for each stencil and evolved set, as far as the command line leaves them open. */
+/* A row for each stencil and evolved set, as far as the command line leaves them open; one that the scene refuses says
+ * so. False if there is none that it does not. */
 static bool rows(const struct verify_options *options, int n, struct solver_error *error)
 {
     static const char *const evolved[] = {"pF", "pFJ", "pFHJ"};
+    size_t measured = 0;
     for (const struct solver_stencil_builder *builder = solver_stencil_builders(); builder->name != NULL; builder++) {
         for (size_t i = 0; i < sizeof evolved / sizeof *evolved; i++) {
             const char *only_stencil = verify_said(options, "stencil");
             const char *only_evolved = verify_said(options, "evolved");
             bool wanted = (only_stencil == NULL || strcmp(only_stencil, builder->name) == 0) &&
                           (only_evolved == NULL || strcmp(only_evolved, evolved[i]) == 0);
-            if (wanted && !row(options, n, builder->name, evolved[i], error)) {
+            if (!wanted) {
+                continue;
+            }
+            if (row(options, n, builder->name, evolved[i], error)) {
+                measured++;
+            } else if (error->code == SOLVER_BAD_INPUT) {
+                (void)printf("%-8s %-6s refused: %s\n", builder->name, evolved[i], error->text);
+            } else {
                 return false;
             }
         }
     }
-    return true;
+    return measured > 0;
 }
 
 static void print_head(void)

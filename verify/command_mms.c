@@ -241,6 +241,14 @@ static bool save_json(const struct suite *suite, const char *path, bool pass, st
     return done;
 }
 
+/* Before anything is run that would be lost. */
+static bool check_files(const struct verify_options *options, struct solver_error *error)
+{
+    char folder[VERIFY_PATH];
+    return verify_out_folder(options, "mms", folder, error) &&
+           (options->json == NULL || verify_file_check(options->json, error));
+}
+
 static bool save(const struct suite *suite, const struct verify_options *options, bool pass, struct solver_error *error)
 {
     char folder[VERIFY_PATH], path[VERIFY_PATH];
@@ -280,7 +288,8 @@ static bool run_chosen(struct suite *suite, const struct verify_options *options
             "of its scenes, for instance assay verify manufactured --set stencil=closed");
     }
     if (!verify_mms_cases(&suite->cases, &suite->count, error) ||
-        (options->operand_count > 1 && !choose(suite, options->operand[1], error)) || !find_scenes(suite, error)) {
+        (options->operand_count > 1 && !choose(suite, options->operand[1], error)) || !find_scenes(suite, error) ||
+        !check_files(options, error)) {
         return false;
     }
     suite->result = calloc(suite->count, sizeof *suite->result);

@@ -205,7 +205,8 @@ static bool study(struct work *work, bool *passed, struct solver_error *error)
      */
     if (!choose_shown(work, error) || !verify_figures_check(work->scene, &work->truth, error) ||
         !verify_gates_judge(work->scene, &work->level_now, &work->study.gates, error) ||
-        !verify_out_folder(work->options, work->scene->name, work->folder, error)) {
+        !verify_out_folder(work->options, work->scene->name, work->folder, error) ||
+        (work->options->json != NULL && !verify_file_check(work->options->json, error))) {
         return false;
     }
     work->study.gates = (struct verify_gates){.count = 0};

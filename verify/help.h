@@ -75,14 +75,12 @@
     "  was not run for want of time is listed, as is what was refused or broke down, with the reason. Errors,\n"       \
     "  pairs and bytes are the same in every study that was not cut; times are the machine's.\n"                       \
     "\n"                                                                                                               \
-    "STOPPED  SIGINT (Ctrl-C), SIGTERM and SIGHUP end the study by the signal. What was measured goes to files "       \
-    "called\n"                                                                                                         \
-    "  trade-stopped in place of trade, and --study FOLDER/trade-stopped.tsv takes assay run's choice from that.\n"    \
+    "STOPPED  SIGINT (Ctrl-C), SIGTERM and SIGHUP end the study by the signal. What was measured goes to files\n"      \
+    "  called trade-stopped in place of trade; --study FOLDER/trade-stopped.tsv has assay run choose from that.\n"     \
     "\n"                                                                                                               \
-    "ERROR  The fronts are of one error, by default the first that assay verify shows; --error names another, as\n"    \
-    "  --error u or --error \"figure period\". That of one number, as a figure is, can be small by accident, where "   \
-    "it\n"                                                                                                             \
-    "  changes its sign; a norm of a field cannot.\n"                                                                  \
+    "ERROR  The fronts are of one error, by default the first that assay verify shows; --error names another,\n"       \
+    "  as --error u or --error \"figure period\". That of one number, as a figure is, can be small by accident,\n"     \
+    "  where it changes its sign; a norm of a field cannot.\n"                                                         \
     "\n"                                                                                                               \
     "JSON    scene, oracle, error, stopped_by, overrides, budget, spent, axes {KEY: [value]}, levels [n], and\n"       \
     "        runs        [{configuration {KEY: value}, variant, n, own, particles, pairs, steps, evaluations,\n"       \

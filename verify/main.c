@@ -119,7 +119,8 @@ static const struct verify_command commands[] = {
      .help =
          "Times steps of a scene for every stencil and evolved set, on one thread and with tvd-rk2 at CFL 0.3 unless\n"
          "--set says otherwise, for each of the levels, and measures the machine's memory bandwidth and arithmetic in\n"
-         "the same run: the roofline. A measurement, not a test: it has no bound to fail.\n\n"
+         "the same run: the roofline. What the scene refuses is said in place of its row. A measurement, not a test:\n"
+         "it has no bound to fail.\n\n"
          "The loops are those for the widest instruction set that the processor knows; the environment variable\n"
          "ASSAY_ISA=baseline, avx2 or avx512 asks for another.\n\n"
          "  assay bench swinging-cube\n"
@@ -241,11 +242,11 @@ int main(int argc, char **argv)
     bool help = strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0;
     if (help && argc == 2) {
         print_help(stdout);
-        return VERIFY_PASSED;
+        return flushed(VERIFY_PASSED);
     }
     if (strcmp(word, "--version") == 0) {
         (void)printf("assay %s\nloops for %s\n", verify_version(), solver_path_name(solver_path()));
-        return VERIFY_PASSED;
+        return flushed(VERIFY_PASSED);
     }
     if (strcmp(word, "--manual") == 0) {
         verify_manual(stdout, commands, COMMANDS);
@@ -262,7 +263,7 @@ int main(int argc, char **argv)
     }
     if (options.help) {
         verify_options_help(stdout, command);
-        return VERIFY_PASSED;
+        return flushed(VERIFY_PASSED);
     }
     verify_signals_prepare();
     int code = command->run(&options);

@@ -208,6 +208,17 @@ static bool read_run(struct reader *reader, char *line, struct verify_trade *tra
     return (read && rest == NULL) || wrong(reader, "as many numbers as there are columns");
 }
 
+/* Text that a terminal may be shown: tabs and ends of lines are all it has of control characters. */
+static bool is_plain(const char *text)
+{
+    for (const char *c = text; *c != '\0'; c++) {
+        if (iscntrl((unsigned char)*c) && *c != '\t' && *c != '\n') {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* Cuts the sum off the text and compares. */
 static bool check_sum(struct reader *reader, size_t size)
 {
@@ -221,10 +232,16 @@ static bool check_sum(struct reader *reader, size_t size)
         whole = last[-1] == '\n' && strcmp(last, expected) == 0;
         *last = '\0';
     }
-    return whole || solver_fail(reader->error, SOLVER_BAD_INPUT,
-                                "%s: the study was cut short or damaged: its last line is not the sum over the others. "
-                                "Make another with assay trade",
-                                reader->path);
+    if (!whole) {
+        return solver_fail(reader->error, SOLVER_BAD_INPUT,
+                           "%s: the study was cut short or damaged: its last line is not the sum over the others. "
+                           "Make another with assay trade",
+                           reader->path);
+    }
+    return is_plain(reader->at) ||
+           solver_fail(reader->error, SOLVER_BAD_INPUT,
+                       "%s: the study holds control characters, which assay trade writes none of; make another",
+                       reader->path);
 }
 
 static bool read_all(struct reader *reader, size_t size, struct verify_trade *trade)

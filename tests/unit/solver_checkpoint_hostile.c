@@ -189,6 +189,10 @@ static void made_up(void)
     forged("field v", COUNT, &few, 8, "has 8 entries of 16 bytes");
     forged("field rho", DATA, &negative, 8, "its state is broken");
     forged("field v", DATA, &nan, 8, "its state is broken");
+    forged("field sigma L", DATA, &nan, 8, "its field sigma L is not finite");
+    forged("work of loads", DATA, &nan, 8, "are no numbers");
+    forged("numerical dissipation", DATA, &infinite, 8, "are no numbers");
+    forged("seconds", DATA, &negative, 8, "are no numbers");
     forged("neighbours", DATA, &nan, 8, "not finite");
     forged("rows of history", DATA, &many, 8, "more than it can hold");
     forged("rows of history", DATA, &huge, 8, "more than it can hold");

@@ -130,6 +130,7 @@ static void hostile(void)
         {"scene\t", "scent\t", "line 2: expected scene"},
         {"hash\t", "hash\tx", "line 7"}, /* the reader has seen the names of columns by then */
         {"stopped\tSIGINT", "stopped\tby something that is no signal", "line 5: expected stopped"},
+        {"stopped\tSIGINT", "stopped\t\x1b[31mSIGINT", "control characters"},
         {"error\tp", "error\tq", "an error that has a column"},
         {"variant\tn", "n\tvariant", "line 7: expected the names of columns"},
         {"\tfigure period", "\t\tfigure period", "line 7: expected up to 32 names of errors"},

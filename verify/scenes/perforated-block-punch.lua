@@ -29,7 +29,7 @@ integrator, cfl = "ssp-rk3", 0.3
 history = 2000
 probes = { { name = "punched", X = {edge / 4, 0, height} } }
 
--- Departure of the pressure from its neighbours' at n = 16: with {p,F,J} and {p,F,H,J} 0.107, with {p,F} 0.62; at n = 24 0.055
+-- Departure of the pressure from its neighbours' at n = 16: with {p,F,J} and {p,F,H,J} 0.108, with {p,F} 0.62; at n = 24 0.054
 -- and 0.66.
 gates = {
     { ["indicator checkerboard"] = 0.15, ["indicator clumping"] = 0.4, ["indicator energy gain"] = 1e-9 },
