@@ -64,7 +64,7 @@ static void test_contrast(void)
         "    return first(1e-4 * sin(40 * X + 3), 1e-4 * cos(50 * (Y or 0)), 0) end }\n";
     static const char *const rows[] = {"dim=1 n=16 evolved=pF", "dim=2 n=8 evolved=pFHJ stencil=sbp4",
                                        "dim=2 n=8 evolved=pF stencil=sph support=2.1",
-                                       "dim=2 n=8 evolved=pF scheme=jst"};
+                                       "dim=2 n=8 evolved=pF scheme=jst", "dim=2 n=8 evolved=pFJ precision=single"};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct sample sample = start(contrast, "integrator=rk4 cfl=0.45 t_end=1e9 %s", rows[i]);
         double most = 0.0;
