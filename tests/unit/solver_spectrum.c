@@ -119,11 +119,12 @@ static void what_has_no_spectrum_is_refused(void)
 {
     const char *large[] = {"d=3", "n=8"};
     const char *held[] = {"d=2", "n=3", "angular_momentum=projected"};
+    const char *single[] = {"d=2", "n=3", "precision=single"};
     struct {
         const char *const *overrides;
         size_t count;
-    } cases[] = {{large, 2}, {held, 3}};
-    for (size_t i = 0; i < 2; i++) {
+    } cases[] = {{large, 2}, {held, 3}, {single, 3}};
+    for (size_t i = 0; i < 3; i++) {
         struct solver_scene *scene = NULL;
         struct solver_run *run = bar(cases[i].overrides, cases[i].count, &scene);
         struct solver_error error = {.code = SOLVER_OK};
