@@ -64,7 +64,7 @@ static inline __attribute__((always_inline)) wide softening(const struct solver_
             carried = of_a > 0 && of_b > 0;
             bulk *= of_a > of_b ? of_a : of_b;
         }
-        real softened = (real)sqrt(of_lengths / (z->shear[g] * of_lengths + bulk * (t * t)));
+        real softened = (real)sqrt((double)(of_lengths / (z->shear[g] * of_lengths + bulk * (t * t))));
         each[g] = carried ? softened : 0;
     }
     return join_each(each);

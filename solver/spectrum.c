@@ -134,7 +134,9 @@ bool solver_run_spectrum(struct solver_run *run, double complex **eigenvalue, si
                            "a spectrum is that of a free body: no loads, moved faces, walls or projection");
     }
     if (run->state.in_single) {
-        return solver_fail(error, SOLVER_BAD_INPUT, "a spectrum is that of a state in double precision, or mixed");
+        return solver_fail(error, SOLVER_BAD_INPUT,
+                           "a spectrum is that of small changes, which single precision rounds away: expected "
+                           "precision = \"double\" or \"mixed\"");
     }
     bool ok = unknowns(&run->state, (size_t)run->cloud->dim, &index, &all, error) &&
               solver_alloc((void **)&matrix, all * all, sizeof *matrix, "matrix of rates", error) &&

@@ -29,7 +29,8 @@ load_weighting(const struct solver_upwind *work, enum weighting weighting, const
 static inline __attribute__((always_inline)) void add_difference(const struct solver_upwind *work,
                                                                  enum weighting weighting, const struct group *group,
                                                                  size_t k, bool idle, const real *field, wide field_a,
-                                                                 const real *scalar, wide scalar_a, struct gradients *G)
+                                                                 const real *scalar, wide scalar_a, bool composite,
+                                                                 struct gradients *G)
 {
     struct pairs pairs = pairs_of(work, group, k, idle);
     struct weights w = load_weighting(work, weighting, &pairs);
@@ -38,16 +39,18 @@ static inline __attribute__((always_inline)) void add_difference(const struct so
         G->of_vector[I] += difference * w.each[I];
     }
     if (scalar != NULL) {
-        G->of_scalar += (gather_scalars(scalar, pairs.b) - scalar_a) * w.together;
+        wide jump = gather_scalars(scalar, pairs.b) - scalar_a;
+        G->of_scalar += (composite ? where_alike(work, group, &pairs, jump) : jump) * w.together;
     }
 }
 
-/* sum_b (f_b - f_a) w_ab; `scalar` may be NULL. Sums over every other neighbour are kept apart, so that one does not
- * wait for the last; on a line there are too few for that. */
+/* sum_b (f_b - f_a) w_ab; `scalar` may be NULL. It jumps where materials meet, and no slope is taken across: that of a
+ * soft particle beside a stiff one would be the stiff one's, and feed energy into the soft side. Sums over every other
+ * neighbour are kept apart, so that one does not wait for the last; on a line there are too few for that. */
 static inline __attribute__((always_inline)) struct gradients sum_gradients(const struct solver_upwind *work,
                                                                             const struct group *group,
                                                                             const real *field, const real *scalar,
-                                                                            enum weighting weighting)
+                                                                            enum weighting weighting, bool composite)
 {
     struct gradients even = {.of_scalar = {0}};
     struct gradients odd = even;
@@ -55,13 +58,14 @@ static inline __attribute__((always_inline)) struct gradients sum_gradients(cons
     wide s_a = scalar != NULL ? gather_scalars(scalar, group->at) : (wide){0};
     size_t k = 0;
     for (; DIM > 1 && k + 1 < group->shortest; k += 2) {
-        add_difference(work, weighting, group, k, false, field, f_a, scalar, s_a, &even);
-        add_difference(work, weighting, group, k + 1, false, field, f_a, scalar, s_a, &odd);
+        add_difference(work, weighting, group, k, false, field, f_a, scalar, s_a, composite, &even);
+        add_difference(work, weighting, group, k + 1, false, field, f_a, scalar, s_a, composite, &odd);
     }
     for (; k < group->longest; k += 2) {
-        add_difference(work, weighting, group, k, true, field, f_a, scalar, s_a, &even);
+        add_difference(work, weighting, group, k, true, field, f_a, scalar, s_a, composite, &even);
         if (k + 1 < group->longest) {
-            add_difference(work, weighting, group, k + 1, true, field, f_a, scalar, s_a, DIM > 1 ? &odd : &even);
+            add_difference(work, weighting, group, k + 1, true, field, f_a, scalar, s_a, composite,
+                           DIM > 1 ? &odd : &even);
         }
     }
     for (int I = 0; I < DIM; I++) {
@@ -71,7 +75,7 @@ static inline __attribute__((always_inline)) struct gradients sum_gradients(cons
     return even;
 }
 
-/* The same of the stress: DIM tensors, derivative along each reference axis, scaled. */
+/* The same of the stress, which jumps as well: DIM tensors, derivative along each reference axis, scaled. */
 static inline void stress_gradient(const struct solver_upwind *work, size_t a, const double *weights, size_t stride,
                                    real scale)
 {
@@ -80,9 +84,11 @@ static inline void stress_gradient(const struct solver_upwind *work, size_t a, c
     size_t shift = weights == work->pair ? pair_shift(work, a) : 0;
     for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
         const double *w = weights + (ab + shift) * stride;
-        const real *P_b = work->P + (size_t)work->neighbour[ab] * TENSOR;
+        size_t b = work->neighbour[ab];
+        bool alike = work->stride == 0 || solver_material_same(work->constants + a, work->constants + b);
         for (int column = 0; column < DIM; column++) {
-            vec difference = load(P_b + column * LANES) - P_a.column[column];
+            vec difference = load(work->P + b * TENSOR + column * LANES) - P_a.column[column];
+            difference = alike ? difference : (vec){0};
             for (int I = 0; I < DIM; I++) {
                 G[I].column[column] += difference * (real)w[I];
             }
@@ -107,14 +113,14 @@ static inline __attribute__((always_inline)) void store_slope(const struct solve
 
 /* The stencil's own gradients, which are the rate of F; of U'(J) if `pressure`. */
 static inline __attribute__((always_inline)) void gradients_with(const struct solver_upwind *work, size_t begin,
-                                                                 size_t end, bool pressure, bool narrow)
+                                                                 size_t end, bool pressure, bool narrow, bool composite)
 {
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
         wide half_per_V = 0.5 * ((real)work->unit / gather_each(work->V, 1, group.at));
         struct gradients G =
-            sum_gradients(work, &group, work->v, pressure ? work->pressure : NULL, narrow ? NARROW : WIDE);
+            sum_gradients(work, &group, work->v, pressure ? work->pressure : NULL, narrow ? NARROW : WIDE, composite);
         for (int I = 0; I < DIM; I++) {
             scatter(work->F_rate + I * LANES, TENSOR, group.at, G.of_vector[I] * half_per_V);
         }
@@ -130,7 +136,7 @@ static void least_squares_gradients(const struct solver_upwind *work, size_t beg
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
-        struct gradients G = sum_gradients(work, &group, work->v, field, LEAST_SQUARES);
+        struct gradients G = sum_gradients(work, &group, work->v, field, LEAST_SQUARES, work->stride != 0);
         for (int I = 0; I < DIM; I++) {
             scatter(work->v_gradient + I * LANES, TENSOR, group.at, G.of_vector[I]);
         }
@@ -144,14 +150,17 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
 {
     bool own = work->least_squares == NULL; /* the reconstruction takes the stencil's gradients */
     bool pressure = own && work->pressure_gradient != NULL;
-    if (work->narrow != NULL && pressure) {
-        gradients_with(work, begin, end, true, true);
-    } else if (work->narrow != NULL) {
-        gradients_with(work, begin, end, false, true);
+    bool narrow = work->narrow != NULL;
+    if (pressure && work->stride != 0) { /* rare: not worth a loop each */
+        gradients_with(work, begin, end, true, narrow, true);
+    } else if (narrow && pressure) {
+        gradients_with(work, begin, end, true, true, false);
+    } else if (narrow) {
+        gradients_with(work, begin, end, false, true, false);
     } else if (pressure) {
-        gradients_with(work, begin, end, true, false);
+        gradients_with(work, begin, end, true, false, false);
     } else {
-        gradients_with(work, begin, end, false, false);
+        gradients_with(work, begin, end, false, false, false);
     }
     if (!own && work->v_gradient != NULL) {
         least_squares_gradients(work, begin, end);
