@@ -38,6 +38,8 @@ declare -A only=(
   [test_solver_wall]="oblique wall"                          # others: every integrator in every dimension
   [test_verify_manufactured]="body force"                    # others: the self-checks of all kinds, by quadrature
   [test_solver_rotation]="F of a cell led through a turn|materials at F = R|the rotation itself" # others: long runs
+  [test_solver_closure]="nested spaces"                      # others: solutions, over and over: minutes
+  [test_solver_single]="bytes|breakdown"                     # others: runs beside those in double precision: minutes
   [test_solver_symmetry]="whatever the terms"                # others: factorised stencils of balls and cylinders
   [test_solver_balance]="asked for"                          # others: more runs of the same
   [test_oracles_bimaterial_wave]="is the sum over all paths" # the others call it as often as that check does, or more
@@ -46,6 +48,8 @@ declare -A only=(
 # Of others these are left out, beside what repeats.txt names: the sanitizers see them.
 declare -A without=(
   [test_solver_run_walls]="carried along"      # walls of every kind in every dimension: 25 s
+  [test_solver_run_composite]="a step for materials that differ ten thousand times|energy where materials meet" # long runs
+  [test_solver_run_fluxes]="a free body never gains energy" # of every kind, for hundreds of steps
   [test_solver_run_faces]="faces hold their components, also on edges and in corners" # every kind on every body: 27 s
   [test_solver_stencil]="every builder in 3D"  # schemes and materials are run in 3D: 20 s
   [test_solver_flow]="work is stored or dissipated; order of the return map" # thousands of return maps: 8 s
