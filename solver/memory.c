@@ -7,9 +7,19 @@
 
 enum { ALIGNMENT = 64, LARGE_PAGE = 1 << 21 };
 
+/* Loops gather from all over a large array: on small pages they wait for the tables of pages. */
+static bool is_large(size_t bytes)
+{
+    return bytes >= 4 * (size_t)LARGE_PAGE;
+}
+
 size_t solver_alloc_bytes(size_t count, size_t size)
 {
-    return count > (SIZE_MAX - ALIGNMENT) / size ? SIZE_MAX : (count * size + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
+    if (count > (SIZE_MAX - 2 * (size_t)LARGE_PAGE) / size) {
+        return SIZE_MAX;
+    }
+    size_t bytes = (count * size + ALIGNMENT) / ALIGNMENT * ALIGNMENT;
+    return is_large(bytes) ? (bytes + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE : bytes;
 }
 
 bool solver_alloc(void **out, size_t count, size_t size, const char *what, struct solver_error *error)
@@ -20,14 +30,12 @@ bool solver_alloc(void **out, size_t count, size_t size, const char *what, struc
         return solver_fail(error, SOLVER_NO_MEMORY, "%s: %zu x %zu bytes is more than can be addressed", what, count,
                            size);
     }
-    /* Loops gather from all over a large array: on small pages they wait for the tables of pages. */
-    bool large = bytes >= 4 * (size_t)LARGE_PAGE;
-    *out = aligned_alloc(large ? LARGE_PAGE : ALIGNMENT, bytes);
+    *out = aligned_alloc(is_large(bytes) ? LARGE_PAGE : ALIGNMENT, bytes);
     if (*out == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "%s: no memory for %.1f MiB; choose a smaller n", what,
                            (double)bytes / 1048576.0);
     }
-    if (large) {
+    if (is_large(bytes)) {
         (void)madvise(*out, bytes, MADV_HUGEPAGE); /* where it is refused, all works as well */
     }
     memset(*out, 0, bytes);

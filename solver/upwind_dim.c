@@ -244,8 +244,9 @@ static inline wide one_sided_jumps(const struct solver_upwind *work, const struc
         real of_a = dot(by_a[g], by_a[g]);
         real of_b = dot(by_b, by_b);
         real sum = of_a + of_b;
-        real share = sum > 0 ? of_b / sum : (real)0.5;
-        real rest = sum > 0 ? of_a / sum : (real)0.5;
+        real by = sum > 0 ? sum : 1;
+        real share = sum > 0 ? of_b / by : (real)0.5;
+        real rest = sum > 0 ? of_a / by : (real)0.5;
         jumps[g] = by_a[g] * splat(share) + by_b * splat(rest);
     }
     return join(jumps);

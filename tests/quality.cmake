@@ -18,10 +18,10 @@ assay_test(quality-valgrind LABELS quality TIMEOUT 1800 CORES ${cores}
 set_tests_properties(quality-clang PROPERTIES FIXTURES_SETUP clang_build)
 set_tests_properties(quality-tidy quality-valgrind PROPERTIES FIXTURES_REQUIRED clang_build)
 
-assay_test(quality-sanitize LABELS quality TIMEOUT 1800 CORES ${cores}
+assay_test(quality-sanitize LABELS quality TIMEOUT 1800 CORES ${cores} UNTRAPPED "its tests say for themselves"
   COMMAND ${quality}/sanitize.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/sanitize)
 
 # Another compiler, and no optimisation, against the stored records.
-assay_test(quality-compilers LABELS quality TIMEOUT 600 CORES ${cores}
+assay_test(quality-compilers LABELS quality TIMEOUT 600 CORES ${cores} UNTRAPPED "clang computes what it then discards"
   COMMAND ${quality}/compilers.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/O0 ${CMAKE_BINARY_DIR}/clang)
 set_tests_properties(quality-compilers PROPERTIES FIXTURES_REQUIRED clang_build)
