@@ -9,7 +9,7 @@
 double scene_read_number(lua_State *L, const char *key, int index, double low, double high, const char *expected)
 {
     double value = lua_type(L, index) == LUA_TNUMBER ? lua_tonumber(L, index) : NAN;
-    if (!(value >= low && value <= high)) { /* refuses NaN */
+    if (!(isgreaterequal(value, low) && islessequal(value, high))) { /* refuses NaN */
         if (lua_type(L, index) == LUA_TNUMBER && !isfinite(value))
             scene_refuse(L, "%s: expected %s, got %s", key, expected, isnan(value) ? "NaN" : "an infinite number");
         scene_refuse_value(L, key, expected, index);
