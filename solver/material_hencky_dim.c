@@ -69,7 +69,7 @@ static inline struct strains strains_of(struct tensor F, const double *memory)
         excess.column[I] += G.column[I] + turned.column[I] + plastic.column[I];
     }
     struct spectrum of = spectrum(excess);
-    double normal = memory != NULL ? 0.5 * log1p(memory[NORMAL]) : 0.0;
+    double normal = DIM < 3 && memory != NULL ? 0.5 * log1p(memory[NORMAL]) : 0.0;
     struct strains strains = {.log = {normal, normal, normal}};
     for (int i = 0; i < DIM; i++) {
         strains.log[i] = 0.5 * log1p(of.value[i]);
