@@ -96,7 +96,7 @@ assay_test(gate-sees-other-errors LABELS gate mustfail COMMAND ${fails} "FAIL: n
 set_tests_properties(gate-sees-other-errors PROPERTIES FIXTURES_REQUIRED "linear-pF;linear-pFJ")
 
 # The wave in a bar of two materials at 1.2 mm: relative L1 error of the stress, largest over six times, at most 2 % being
-# asked at 2.4 mm; coefficients; stress ahead of the front. Measured 3.26e-4, 1.60, 1.46e-6, 2.25, 2.1e-7, 6.5e-5; with
+# asked at 2.4 mm; coefficients; stress ahead of the front. Measured 3.26e-4, 1.60, 1.11e-6, 2.35, 1.2e-7, 6.5e-5; with
 # sbp2 3.06e-3, 1.30, 1.5e-6, 1.1e-5, 1.97e-3.
 study_gate(bimaterial LABELS gate SCENE bimaterial-wave
   BOUNDS "gate snapshots_sigma_l1 <= 5e-4" "gate rate snapshots_sigma_l1 >= 1.4" "gate figure reflection <= 5e-6"
@@ -295,14 +295,15 @@ assay_test(gate-twisting-column-sees-checkerboard LABELS gate mustfail COMMAND $
 assay_test(gate-twisting-column-sees-drift LABELS gate mustfail COMMAND ${fails} "<= 1e-10        [m]  FAIL"
   $<TARGET_FILE:assay> verify twisting-column --levels 6 --set stencil=closed --set perturb=0.1 --set t_end=0.01
   --out gates/twisting-column-drift)
-# Turned by little, its period is that of Saint-Venant's torsion, unless it is 3 % stiffer.
+# Turned by little, its period is that of Saint-Venant's torsion, unless it is 3 % stiffer. A softer body would come
+# nearer at n = 4: so that period is held both ways.
 set(torsion verify twisting-column --set Omega=0.5 --levels)
 assay_test(gate-twisting-column-torsion LABELS gate COMMAND $<TARGET_FILE:assay> ${torsion} 4
   --set t_end=0.56 --out gates/twisting-column-torsion)
 assay_test(gate-twisting-column-torsion-fine LABELS gate slow COMMAND $<TARGET_FILE:assay> ${torsion} 6
   --set t_end=0.75 --out gates/twisting-column-torsion-fine)
-assay_test(gate-twisting-column-sees-stiffness LABELS gate mustfail slow COMMAND ${fails} "<= 0.02         [-]  FAIL"
-  $<TARGET_FILE:assay> ${torsion} 4 --set t_end=0.56 --set material.E=17.5e6 --out gates/twisting-column-stiffness)
+assay_test(gate-twisting-column-sees-stiffness LABELS gate mustfail slow COMMAND ${fails} "<= 0.005        [-]  FAIL"
+  $<TARGET_FILE:assay> ${torsion} 4 --set t_end=0.56 --set material.E=16.5e6 --out gates/twisting-column-stiffness)
 # The incompressible column, its volumes, and what an iteration that is cut short says. As printed volumes stray.
 assay_test(gate-incompressible-column LABELS gate COMMAND $<TARGET_FILE:assay> verify incompressible-column --levels 4
   --out gates/incompressible-column)
