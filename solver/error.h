@@ -18,8 +18,12 @@ struct solver_error {
     char text[1024]; /* what, where, what was expected; no trailing newline */
 };
 
-/* Fills *error and returns false, so that a caller can write `return solver_fail(...)`. */
+/* Fills *error and returns false, so that a caller can write `return solver_fail(...)`. The text is plain. */
 bool solver_fail(struct solver_error *error, enum solver_code code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* Makes text plain in place, since it may hold what stood in a file: control characters, with which a terminal can be
+ * driven, become '?', as does what is no UTF-8, and ends of lines and tabs become blanks. */
+void solver_plain(char *text);
 
 #endif

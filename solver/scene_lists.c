@@ -296,12 +296,11 @@ static void read_variant_name(lua_State *L, char name[SOLVER_NAME])
     if (lua_type(L, -2) != LUA_TSTRING)
         scene_refuse_value(L, "trade", "names as keys", -2);
     const char *text = lua_tostring(L, -2);
-    bool plain = *text && strlen(text) < SOLVER_NAME && strlen(text) == lua_rawlen(L, -2);
-    for (const char *c = text; plain && *c; c++)
-        plain = (unsigned char)*c >= 0x20 && *c != 0x7F;
-    if (!plain)
+    bool fits = *text && strlen(text) < SOLVER_NAME && strlen(text) == lua_rawlen(L, -2);
+    snprintf(name, SOLVER_NAME, "%.*s", SOLVER_NAME - 1, text);
+    solver_plain(name);
+    if (!fits || strcmp(name, text) != 0)
         scene_refuse(L, "trade: expected names of 1 to %d bytes without control characters", SOLVER_NAME - 1);
-    snprintf(name, SOLVER_NAME, "%s", text);
 }
 
 static int compare_variants(const void *a, const void *b)

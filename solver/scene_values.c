@@ -37,6 +37,9 @@ void scene_read_text(lua_State *L, const char *key, int index, char *out, size_t
         if ((unsigned char)text[i] < ' ')
             scene_refuse(L, "%s: expected text on one line, got a control character (code %d)", key, text[i]);
     memcpy(out, text, length + 1);
+    solver_plain(out);
+    if (memcmp(out, text, length) != 0)
+        scene_refuse(L, "%s: expected text in UTF-8 without control characters", key);
 }
 
 void scene_read_numbers(lua_State *L, const char *key, int index, double *out, size_t count)

@@ -12,6 +12,7 @@ import sys
 PROGRAM, SAMPLES, FOLDER = sys.argv[1:]
 WANTED, BATCH = 48, 12
 SANITIZER = re.compile(r"ERROR: (Address|Leak|UndefinedBehavior)Sanitizer|runtime error:")
+CONTROL = re.compile(r"[\x00-\x09\x0b-\x1f\x7f]")  # what a terminal obeys
 IN_HDF5 = re.compile(r"^ *#[0-4] .*libhdf5", re.M)
 LOST = "did not survive"
 
@@ -28,7 +29,7 @@ CSV = [  # (from, to): regular expression and what takes its place, once
     (r"\n0,0,0,", "\nzero,0,0,"), (r"\n0,0,0,", "\n0x,0,0,"), (r",weight", ",weight,weight"), (r",weight", ",volume,extra"),
     (r",weight\n(.*),\S+\n", r",weight\n\1,-1\n"), (r",weight\n(.*),\S+\n", r",weight\n\1,inf\n"),
     (r",weight", ",t[s]"), (r"X\[m\]", ""), (r"X\[m\]", "X" * 100 + "[m]"), (r"u_x\[m\]", "u_x[" + "m" * 100 + "]"),
-    (r"\n0,0,0,", "\n\0,0,0,"),
+    (r"\n0,0,0,", "\n\0,0,0,"), (r"X\[m\]", "\x1b[2JX[m]"), (r"X\[m\]", "X[\x1b[2J]"), (r"time = \S+ s", "time = \x1b[2J"),
 ]
 VTU = [
     (r"<VTKFile", "<VTUFile"), (r"UnstructuredGrid", "PolyData"), (r"LittleEndian", "Middle"), (r"NumberOfPoints=\"27\"", ""),
@@ -89,7 +90,7 @@ def damage(whole, chance):
 def judge(path):
     run = subprocess.run([PROGRAM, "judge", path, "--oracle", "swinging-cube", "--typical"], stdout=subprocess.PIPE,
                          stderr=subprocess.PIPE, timeout=100)
-    return run.returncode, run.stderr.decode(errors="replace")
+    return run.returncode, run.stdout.decode(errors="replace") + run.stderr.decode(errors="replace")
 
 
 def verdict(name, data):
@@ -102,6 +103,8 @@ def verdict(name, data):
         return f"{path}: {said}"
     if code not in (0, 2) or (code == 2 and path not in said):
         return f"{path}: exit code {code}: {said}"
+    if CONTROL.search(said):
+        return f"{path}: what is printed holds control characters: {said!r}"
     if LOST in said:
         lost.append(path)
     os.remove(path)

@@ -247,6 +247,11 @@ def refused(place):
     other = data[:at] + b"YYY" + data[at + 3:-16]
     checkpoint.write_bytes(other + b"assaySUM" + struct.pack("<Q", checksum(other)))
     place.run("again", again, 2, "a build by YYY")
+    # Terminals obey what stands in a file only if it reaches them as it is.
+    at = data.index(b"tiny.lua\0")
+    other = data[:at] + b"ti\033[2J.a\0" + data[at + 9:-16]
+    checkpoint.write_bytes(other + b"assaySUM" + struct.pack("<Q", checksum(other)))
+    place.run("again", [*again, "--as-stored"], 2, "ti?[2J.a: the path holds control characters")
     checkpoint.write_bytes(data)
     if "baseline" not in subprocess.check_output([place.assay, "--version"], text=True): # there are other loops
         place.run("again", again, 2, "those for baseline have separate ones", isa="baseline")

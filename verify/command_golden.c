@@ -46,9 +46,11 @@ static void print_lines(const struct golden_report *report)
 {
     (void)printf("  %-28s %12s    %-12s\n", "field", "difference", "bound");
     for (size_t i = 0; i < report->count; i++) {
-        const struct golden_line *line = &report->line[i];
-        (void)printf("  %-28s %12.4e <= %-12.4e %s%s%s\n", line->field, line->difference, line->bound,
-                     line->pass ? "PASS" : "FAIL", line->pass ? "" : ": ", line->pass ? "" : line->place);
+        struct golden_line line = report->line[i];
+        solver_plain(line.field); /* columns are named by the file */
+        solver_plain(line.place);
+        (void)printf("  %-28s %12.4e <= %-12.4e %s%s%s\n", line.field, line.difference, line.bound,
+                     line.pass ? "PASS" : "FAIL", line.pass ? "" : ": ", line.pass ? "" : line.place);
     }
 }
 

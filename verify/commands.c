@@ -7,7 +7,9 @@ const char *verify_version(void)
 
 int verify_complain(const struct solver_error *error)
 {
+    struct solver_error plain = *error; /* words may have been added to its text */
+    solver_plain(plain.text);
     (void)fflush(stdout);
-    (void)fprintf(stderr, "assay: %s\n", error->text);
+    (void)fprintf(stderr, "assay: %s\n", plain.text);
     return (int)verify_exit_code(error);
 }
