@@ -16,7 +16,8 @@ cli_refuses(wrong-scene "did you mean swinging-cube?" verify swinging-cub)
 cli_refuses(missing-scene-file "/nowhere/x.lua" run /nowhere/x.lua)
 cli_refuses(scene-is-folder "directory" run ./CMakeFiles/)
 cli_refuses(wrong-option "did you mean --levels?" verify swinging-cube --lvels 4,8)
-cli_refuses(option-of-another "unknown option --levels" run swinging-cube --levels 4,8)
+cli_refuses(option-of-another "takes no --levels, being of one size, as in --set n=24" run swinging-cube --levels 4,8)
+cli_refuses(cost-of-one-size "assay cost takes no --levels, being of one size" cost swinging-cube --levels 24)
 cli_refuses(wrong-levels "must increase" verify swinging-cube --levels 8,4)
 cli_refuses(huge-level "memory" verify swinging-cube --levels 8,100000)
 cli_refuses(n-in-a-study "--levels" verify swinging-cube --set n=8)
@@ -78,7 +79,13 @@ assay_test(cli-bench-without-stencil LABELS unit COMMAND ${cli} 0 "-        -   
   ${assay} bench swinging-cube --set scheme=ulsph --set n=4)
 assay_test(cli-bench-levels LABELS unit COMMAND ${cli} 0 "-        -              64"
   ${assay} bench swinging-cube --set scheme=ulsph --levels 3,4)
-assay_test(cli-bench-of-what-fits LABELS unit COMMAND ${cli} 0 "sbp4     pF     refused: " ${assay} bench breathing-cylinder
+# Mixed and single precision beside double, unless the row is of one of them.
+set(last_columns "'sbp2 +pF .* %")
+assay_test(cli-bench-precisions LABELS unit COMMAND sh -c
+  "'$<TARGET_FILE:assay>' bench swinging-cube --levels 3 --set stencil=sbp2 --set evolved=pF | grep -E ${last_columns}( +[0-9]+[.][0-9]+){2}$'")
+assay_test(cli-bench-of-one-precision LABELS unit COMMAND sh -c
+  "'$<TARGET_FILE:assay>' bench swinging-cube --levels 3 --set stencil=sbp2 --set evolved=pF --set precision=single | grep -E ${last_columns}( +-){2}$'")
+assay_test(cli-bench-of-what-fits LABELS unit COMMAND ${cli} 0 "sbp4     pF     refused: " ${assay} bench breathing-cylinder --set precision=double
   --set n=4 --set evolved=pF)
 cli_refuses(bench-of-nothing "single is for antisymmetric stencils" bench swinging-cube --set n=4 --set precision=single
             --set stencil=sph)

@@ -34,10 +34,16 @@ static double flops_of(const struct solver_run *run, int stages)
     return flops;
 }
 
+/* A row is of the first, unless the scene or --set says another; the others are timed in turns with it. */
+static const char *const precisions[] = {"double", "mixed", "single"};
+enum { PRECISIONS = sizeof precisions / sizeof *precisions };
+_Static_assert((int)PRECISIONS <= (int)VERIFY_TURNS, "all of them take their turns");
+
 /* The line of a run that has been timed. */
 static void print_row(const struct solver_run *run, const struct solver_facts *facts, int stages, const char *stencil,
-                      const char *evolved, double seconds)
+                      const char *evolved, const double timed[PRECISIONS])
 {
+    double seconds = timed[0];
     double particles = (double)facts->particles;
     double flops = flops_of(run, stages);
     double neighbours = (double)facts->pairs / particles;
@@ -45,12 +51,37 @@ static void print_row(const struct solver_run *run, const struct solver_facts *f
     double bandwidth = verify_bandwidth(facts->bytes_per_particle * particles, facts->threads);
     double peak = verify_roof_flops(facts->threads);
     double share = verify_roof_share(flops, facts->step_traffic, per_particle, peak, bandwidth);
-    (void)printf("%-8s %-6s %10zu %10.1f %7d %10.3g %10.1f %10.2f %8.0f %8.0f %8.0f %10.1f %10.1f %8.0f %%\n",
+    (void)printf("%-8s %-6s %10zu %10.1f %7d %10.3g %10.1f %10.2f %8.0f %8.0f %8.0f %10.1f %10.1f %8.0f %%",
                  stencil != NULL ? stencil : "-", evolved != NULL ? evolved : "-", facts->particles, neighbours,
                  facts->threads, facts->setup_seconds / (100.0 * seconds), 1e9 * per_particle,
                  1e9 * per_particle / (neighbours * stages), facts->bytes_per_particle, facts->step_traffic, flops,
                  1e-9 * bandwidth, 1e-9 * peak, 100.0 * share);
+    for (int i = 1; i < PRECISIONS; i++) {
+        if (isfinite(timed[i])) {
+            (void)printf(" %8.2f", seconds / timed[i]);
+        } else {
+            (void)printf(" %8s", "-");
+        }
+    }
+    (void)printf("\n");
     (void)fflush(stdout);
+}
+
+/* A scene in each precision that it can be run in. */
+struct bench {
+    struct solver_scene *scene[PRECISIONS];
+    struct solver_run *run[PRECISIONS];
+};
+
+/* `precision`: NULL, the scene's own. */
+static bool open_run(const struct verify_options *options, int n, const char *precision, struct bench *bench, int at,
+                     struct solver_error *error)
+{
+    struct verify_options with = *options;
+    char text[SOLVER_NAME];
+    verify_say_unless(&with, "precision", text, precision);
+    return verify_scene_open(&with, n, &bench->scene[at], error) &&
+           verify_run_create(bench->scene[at], &bench->run[at], error);
 }
 
 /* `stencil` and `evolved` are NULL where the scheme has none. n = 0: the scene's own. */
@@ -64,17 +95,25 @@ static bool row(const struct verify_options *options, int n, const char *stencil
     verify_say_unless(&with, "integrator", text[2], "tvd-rk2");
     verify_say_unless(&with, "cfl", text[3], "0.3");
     verify_say_unless(&with, "threads", text[4], "1");
-    struct solver_scene *scene = NULL;
-    struct solver_run *run = NULL;
-    double seconds;
-    bool done = verify_scene_open(&with, n, &scene, error) && verify_run_create(scene, &run, error) &&
-                verify_time_steps(run, &seconds, error);
-    if (done) {
-        struct solver_facts facts = solver_run_facts(run);
-        print_row(run, &facts, solver_integrator_find(scene->integrator)->stages, stencil, evolved, seconds);
+    struct bench bench = {.scene = {NULL}};
+    bool done = open_run(&with, n, NULL, &bench, 0, error);
+    bool compared =
+        done && strcmp(bench.scene[0]->precision, "double") == 0 && verify_said(options, "precision") == NULL;
+    for (int i = 1; compared && i < PRECISIONS; i++) {
+        struct solver_error refused; /* few schemes know them all */
+        (void)open_run(&with, n, precisions[i], &bench, i, &refused);
     }
-    solver_run_free(run);
-    solver_scene_free(scene);
+    double seconds[PRECISIONS];
+    done = done && verify_time_turns(bench.run, PRECISIONS, seconds, error);
+    if (done) {
+        struct solver_facts facts = solver_run_facts(bench.run[0]);
+        int stages = solver_integrator_find(bench.scene[0]->integrator)->stages;
+        print_row(bench.run[0], &facts, stages, stencil, evolved, seconds);
+    }
+    for (int i = 0; i < PRECISIONS; i++) {
+        solver_run_free(bench.run[i]);
+        solver_scene_free(bench.scene[i]);
+    }
     return done;
 }
 
@@ -108,9 +147,9 @@ static bool rows(const struct verify_options *options, int n, struct solver_erro
 static void print_head(void)
 {
     (void)printf("path %s: vectors of %d doubles\n\n", solver_path_name(solver_path()), solver_peak()->lanes);
-    (void)printf("%-8s %-6s %10s %10s %7s %10s %10s %10s %8s %8s %8s %10s %10s %10s\n", "stencil", "set", "particles",
-                 "neighbours", "threads", "set-up/100", "ns/p-step", "ns/nb-rhs", "B/part.", "B moved", "flops",
-                 "triad GB/s", "Gflop/s", "of roof");
+    (void)printf("%-8s %-6s %10s %10s %7s %10s %10s %10s %8s %8s %8s %10s %10s %10s %8s %8s\n", "stencil", "set",
+                 "particles", "neighbours", "threads", "set-up/100", "ns/p-step", "ns/nb-rhs", "B/part.", "B moved",
+                 "flops", "triad GB/s", "Gflop/s", "of roof", "mixed", "single");
 }
 
 static void print_foot(void)
@@ -122,7 +161,9 @@ static void print_foot(void)
         "what\n"
         "a particle's step moves if every array streams once per pass. flops: its operations as assay cost declares\n"
         "them. triad: bandwidth measured on arrays as large as the run's; Gflop/s: multiply-adds alone. of roof: the\n"
-        "time which the slower of traffic and operations takes at these rates, over the time measured.\n",
+        "time which the slower of traffic and operations takes at these rates, over the time measured. mixed, single:\n"
+        "how many times as fast that precision is, steps of each taken in turns; -: the scene cannot be run in it, or\n"
+        "the row is of another than double itself.\n",
         VERIFY_SAMPLES);
 }
 

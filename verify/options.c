@@ -81,6 +81,20 @@ static const struct option *find(const struct verify_command *command, const cha
     return NULL;
 }
 
+/* An option that other commands take. */
+static bool foreign(const struct verify_command *command, const char *name, struct solver_error *error)
+{
+    for (size_t i = 0; i < OPTIONS; i++) {
+        if (strcmp(options_table[i].name, name) == 0) {
+            bool size = options_table[i].bit == VERIFY_TAKES_LEVELS && (command->takes & VERIFY_TAKES_SET) != 0;
+            (void)solver_fail(error, SOLVER_BAD_INPUT, "assay %s takes no %s%s; see assay %s --help", command->name,
+                              name, size ? ", being of one size, as in --set n=24" : "", command->name);
+            return true;
+        }
+    }
+    return false;
+}
+
 static bool unknown(const struct verify_command *command, const char *word, struct solver_error *error)
 {
     const char *names[OPTIONS];
@@ -93,6 +107,9 @@ static bool unknown(const struct verify_command *command, const char *word, stru
     char name[64];
     (void)snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word);
     const char *meant = verify_suggest(name, names, count);
+    if (foreign(command, name, error)) {
+        return false;
+    }
     if (meant != NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT, "unknown option %s for assay %s; did you mean %s?", word,
                            command->name, meant);

@@ -21,6 +21,11 @@ void verify_progress_begin(struct verify_progress *progress, const char *label, 
     }
 }
 
+void verify_progress_go(struct verify_progress *progress)
+{
+    progress->begun = verify_now();
+}
+
 bool verify_progress_show(void *context, double time, double stop, size_t step)
 {
     (void)stop;

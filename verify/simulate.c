@@ -238,6 +238,7 @@ static bool travel(struct journey *at, struct solver_checkpoint **from, verify_t
     verify_progress_begin(&at->progress, label, at->scene->t_end);
     bool done = begin(at, from, error);
     if (done) {
+        verify_progress_go(&at->progress);
         verify_signals_watch();
         done = advance(at, take, context, error);
         verify_signals_leave();

@@ -53,23 +53,51 @@ double verify_clock(int threads)
     return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
 }
 
-bool verify_time_steps(struct solver_run *run, double *seconds, struct solver_error *error)
+/* Seconds that so many steps take. */
+static bool sample(struct solver_run *run, size_t steps, double *seconds, struct solver_error *error)
 {
     int threads = solver_run_facts(run).threads;
-    size_t steps = 1;
-    *seconds = INFINITY;
-    for (int repeat = 0; repeat < VERIFY_SAMPLES;) {
-        double before = verify_clock(threads);
-        if (!solver_run_steps(run, steps, error)) {
+    double before = verify_clock(threads);
+    bool done = solver_run_steps(run, steps, error);
+    *seconds = verify_clock(threads) - before;
+    return done;
+}
+
+/* Steps that are long enough for the clock. */
+static bool enough(struct solver_run *run, size_t *steps, struct solver_error *error)
+{
+    double seconds = 0;
+    for (*steps = 1; sample(run, *steps, &seconds, error); *steps *= 2) {
+        if (seconds >= shortest_sample) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool verify_time_turns(struct solver_run *const *run, size_t count, double *seconds, struct solver_error *error)
+{
+    for (size_t i = 0; i < count; i++) {
+        seconds[i] = INFINITY;
+    }
+    size_t steps[VERIFY_TURNS] = {0};
+    for (size_t i = 0; i < count; i++) {
+        if (run[i] != NULL && !enough(run[i], &steps[i], error)) {
             return false;
         }
-        double sample = verify_clock(threads) - before;
-        if (sample < shortest_sample && repeat == 0) {
-            steps *= 2;
-            continue;
+    }
+    for (size_t turn = 0; turn < VERIFY_SAMPLES * count; turn++) {
+        size_t i = turn % count;
+        double taken = 0;
+        if (run[i] != NULL && !sample(run[i], steps[i], &taken, error)) {
+            return false;
         }
-        *seconds = fmin(*seconds, sample / (double)steps);
-        repeat++;
+        seconds[i] = run[i] != NULL ? fmin(seconds[i], taken / (double)steps[i]) : NAN;
     }
     return true;
+}
+
+bool verify_time_steps(struct solver_run *run, double *seconds, struct solver_error *error)
+{
+    return verify_time_turns(&run, 1, seconds, error);
 }

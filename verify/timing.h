@@ -4,7 +4,7 @@
 
 #include "solver/run.h"
 
-enum { VERIFY_SAMPLES = 7 };
+enum { VERIFY_SAMPLES = 7, VERIFY_TURNS = 3 };
 
 /* Bytes per second of y = a + s b over arrays of `bytes` altogether: the best of several passes, three numbers moved
  * per entry, as STREAM counts. 0 if there is no memory for it. */
@@ -14,5 +14,8 @@ double verify_bandwidth(double bytes, int threads);
 double verify_clock(int threads);
 /* Seconds per step by that clock: the best of VERIFY_SAMPLES, each long enough for the clock. */
 bool verify_time_steps(struct solver_run *run, double *seconds, struct solver_error *error);
+/* The same of at most VERIFY_TURNS runs, seconds[count], whose samples are taken in turns, so that they can be compared
+ * on a machine that others use too. Runs that are NULL are passed over. */
+bool verify_time_turns(struct solver_run *const *run, size_t count, double *seconds, struct solver_error *error);
 
 #endif

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+static bool set_up_just_now;
+
 /* What is said at `time` of a run to 100 s that came from `from`, and began `begun` s ago. */
 static const char *said(double from, double time, double begun, double shown)
 {
@@ -19,6 +21,9 @@ static const char *said(double from, double time, double begun, double shown)
     double now = verify_now();
     struct verify_progress progress = {
         .label = "some", .t_end = 100, .from = from, .on = true, .begun = now - begun, .shown = now - shown};
+    if (set_up_just_now) {
+        verify_progress_go(&progress);
+    }
     CU_ASSERT_TRUE(verify_progress_show(&progress, time, 7, 42));
     (void)fflush(stderr);
     (void)dup2(kept, STDERR_FILENO);
@@ -40,6 +45,14 @@ static void time_to_go(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(said(60, 80, 1000, 1), ", 1000 s to go"));
     CU_ASSERT_PTR_NULL(strstr(said(60, 60.5, 1000, 1), "to go")); /* too early to tell */
     CU_ASSERT_STRING_EQUAL(said(0, 25, 1000, 0), "");             /* again so soon */
+}
+
+/* A set-up that took 1000 s is no measure of steps that take none. */
+static void without_the_set_up(void)
+{
+    set_up_just_now = true;
+    CU_ASSERT_PTR_NOT_NULL(strstr(said(0, 25, 1000, 1), ", 0 s to go"));
+    set_up_just_now = false;
 }
 
 static bool due(struct verify_pace every, double since, size_t step)
@@ -64,6 +77,7 @@ int main(void)
 {
     static const struct unit_test tests[] = {
         {"time to go", time_to_go},
+        {"without the set-up", without_the_set_up},
         {"due by steps or by time", due_by_steps_or_by_time},
     };
     return unit_main("progress", tests, sizeof tests / sizeof *tests);
