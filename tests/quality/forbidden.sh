@@ -22,6 +22,10 @@ refuse "gives up reproducible arithmetic" < <(grep -rInE -e "$pattern" "${rooms[
 pattern='TO''DO|FIX''ME|XX''X|HA''CK'
 refuse "is left open" < <(grep -rInwE -e "$pattern" "${rooms[@]}" tests examples cmake CMakeLists.txt go .ci || true)
 
+# Scratch files go where the environment's TMPDIR says (tests/unit/scratch.h).
+pattern='/t''mp\>'
+refuse "is not where everybody has room: take scratch.h, or mktemp" < <(grep -rInE -e "$pattern" tests examples || true)
+
 # Only verify/ prints and exits; snprintf and writing to a file of one's own are fine.
 pattern='\<(v?printf|puts|putchar|perror|exit|_exit|_Exit|quick_exit|abort|assert)[[:space:]]*\(|\<(stdout|stderr)\>'
 refuse "only verify/ may print or exit" < <(sources solver oracles render golden)

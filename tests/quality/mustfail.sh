@@ -48,6 +48,7 @@ expect 0 forbidden "golden that reads records" golden/a.c '#include "solver/reco
 expect 1 forbidden "fast arithmetic" CMakeLists.txt 'add_compile_options(-f''fast-math)\n'
 expect 1 forbidden "work left open" oracles/a.c '// TO''DO: the rest\n'
 expect 1 forbidden "an example left open" examples/a.c '// TO''DO: the rest\n'
+expect 1 forbidden "a folder for everybody's files" tests/a.c 'char a[] = "/t''mp/a";\n'
 expect 1 forbidden "a solver that prints" solver/a.c 'int a = printf("");\n'
 expect 1 forbidden "an oracle that writes to stderr" oracles/a.c 'int a = fputs("", stderr);\n'
 expect 1 forbidden "a renderer that aborts" render/a.c 'void a(void) { abort(); }\n'

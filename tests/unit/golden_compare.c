@@ -2,6 +2,7 @@
  * directions, at every size down to none. */
 #include "golden/golden.h"
 #include "tests/unit/body.h"
+#include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 
 #include <unistd.h>
@@ -381,8 +382,9 @@ static void other_histories(void)
 
 static void through_a_file(void)
 {
-    char path[64];
-    (void)snprintf(path, sizeof path, "/tmp/assay-golden-%ld.h5", (long)getpid());
+    char folder[SCRATCH], path[SCRATCH_BELOW];
+    scratch_folder(folder);
+    (void)snprintf(path, sizeof path, "%s/body.h5", folder);
     struct pair pair = pair_make();
     struct golden_report report;
     struct solver_error error = {.text = ""};
@@ -401,9 +403,7 @@ static void through_a_file(void)
         CU_ASSERT(!meant || strstr(report.line[i].place, "particle 11") != NULL);
     }
     golden_report_free(&report);
-    (void)remove(path);
-    (void)snprintf(path, sizeof path, "/tmp/assay-golden-%ld.xdmf", (long)getpid());
-    (void)remove(path);
+    scratch_folder_remove(folder);
     pair_free(&pair);
 }
 

@@ -1,6 +1,7 @@
 /* A picture that differs leaves the fresh one and the difference beside the stored one; one that agrees leaves
  * nothing. */
 #include "golden/golden.h"
+#include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 
 #include <stdio.h>
@@ -10,8 +11,8 @@
 
 enum { WIDTH = 160, HEIGHT = 120 };
 
-static char folder[] = "/tmp/assay-image-XXXXXX";
-static char stored[64], fresh[64], difference[64];
+static char folder[SCRATCH];
+static char stored[SCRATCH_BELOW], fresh[SCRATCH_BELOW], difference[SCRATCH_BELOW];
 
 /* Two plain halves, with a square of another colour where `hole` says so. */
 static struct render_image *picture(int width, bool hole)
@@ -88,16 +89,11 @@ int main(void)
         {"agreement and difference", agreement_and_difference},
         {"names refused", names_refused},
     };
-    if (mkdtemp(folder) == NULL) {
-        return 2;
-    }
+    scratch_folder(folder);
     (void)snprintf(stored, sizeof stored, "%s/body.png", folder);
     (void)snprintf(fresh, sizeof fresh, "%s/body.fresh.png", folder);
     (void)snprintf(difference, sizeof difference, "%s/body.difference.png", folder);
     int result = unit_main("golden picture", tests, sizeof tests / sizeof *tests);
-    (void)remove(stored);
-    (void)remove(fresh);
-    (void)remove(difference);
-    (void)rmdir(folder);
+    scratch_folder_remove(folder);
     return result;
 }

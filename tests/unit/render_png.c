@@ -1,5 +1,6 @@
 /* Pictures on disk: they return as they were, and damaged or foreign files are refused. */
 #include "render/image.h"
+#include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 
 #include <dirent.h>
@@ -12,11 +13,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/assay-png-XXXXXX";
+static char folder[SCRATCH];
 
 static const char *in_folder(const char *name)
 {
-    static char path[2][256];
+    static char path[2][SCRATCH_BELOW];
     static int turn;
     turn = !turn;
     snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
@@ -289,10 +290,8 @@ int main(void)
         {"failed writing leaves nothing behind", failed_writing_leaves_nothing_behind},
         {"a full disk leaves the old file", a_full_disk_leaves_the_old_file},
     };
-    if (!mkdtemp(folder))
-        return 1;
+    scratch_folder(folder);
     const int result = unit_main("render png", tests, sizeof tests / sizeof *tests);
-    char command[300];
-    snprintf(command, sizeof command, "rm -rf %s", folder);
-    return system(command) == 0 ? result : 1;
+    scratch_folder_remove(folder);
+    return result;
 }

@@ -4,6 +4,7 @@
 
 #include "solver/material.h"
 #include "solver/run.h"
+#include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 
 #include <math.h>
@@ -46,7 +47,7 @@ struct sample {
 static inline struct sample try_scene(const char *more, const char *format, va_list arguments)
 {
     struct sample sample = {.run = NULL};
-    char path[] = "/tmp/assay-run-XXXXXX";
+    char path[SCRATCH];
     char words[512];
     const char *overrides[32];
     size_t count = 0;
@@ -56,13 +57,8 @@ static inline struct sample try_scene(const char *more, const char *format, va_l
     for (char *word = strtok_r(rest, " ", &rest); word != NULL && count < 32; word = strtok_r(rest, " ", &rest)) {
         overrides[count++] = word;
     }
-    int handle = mkstemp(path);
-    CU_ASSERT_FATAL(handle >= 0);
-    FILE *file = fdopen(handle, "w");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
-    CU_ASSERT_FATAL(fprintf(file, "%s%s%s%s", block, strstr(more, "domain = ") ? "" : plain_domain,
-                            strstr(more, "material = ") ? "" : plain_material, more) > 0);
-    CU_ASSERT_EQUAL_FATAL(fclose(file), 0);
+    scratch_text(path, "%s%s%s%s", block, strstr(more, "domain = ") ? "" : plain_domain,
+                 strstr(more, "material = ") ? "" : plain_material, more);
     (void)solver_scene_load(path, overrides, count, &sample.scene, &sample.error);
     unlink(path);
     return sample;

@@ -2,6 +2,7 @@
 #ifndef TESTS_UNIT_SAMPLE_FILES_H
 #define TESTS_UNIT_SAMPLE_FILES_H
 
+#include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 #include "verify/sample.h"
 
@@ -13,14 +14,13 @@
 
 static struct verify_samples samples;
 static struct solver_error sample_error;
-static char sample_path[] = "/tmp/assay-sample-XXXXXX";
+static char sample_path[SCRATCH];
 
 static inline bool sample_file_write(const void *bytes, size_t size)
 {
-    static bool made;
-    int descriptor = made ? -1 : mkstemp(sample_path);
-    CU_ASSERT_TRUE_FATAL(made || (descriptor >= 0 && close(descriptor) == 0));
-    made = true;
+    if (sample_path[0] == '\0') {
+        scratch_file(sample_path);
+    }
     FILE *file = fopen(sample_path, "wb");
     bool written = file != NULL && fwrite(bytes, 1, size, file) == size;
     return file != NULL && fclose(file) == 0 && written;

@@ -2,6 +2,7 @@
 #ifndef TESTS_SCENE_FILES_H
 #define TESTS_SCENE_FILES_H
 
+#include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 
 #include <stdio.h>
@@ -18,8 +19,8 @@ static const char plain[] = "title = 'plain'\n"
                             "t_end = 1\n"
                             "initial = { velocity = function(X, Y, Z, t) return X, Y end }\n";
 
-static char folder[] = "/tmp/assay-scene-XXXXXX";
-static char path[64];
+static char folder[SCRATCH];
+static char path[SCRATCH_BELOW];
 
 static inline void write_scene(const char *text, size_t length)
 {
@@ -45,12 +46,10 @@ static inline void write_changed(const char *old, const char *new)
 /* Runs the suite with a temporary folder of its own. */
 static inline int scene_files_main(const char *suite, const struct unit_test *tests, size_t count)
 {
-    if (!mkdtemp(folder))
-        return 1;
+    scratch_folder(folder);
     snprintf(path, sizeof path, "%s/scene.lua", folder);
     int result = unit_main(suite, tests, count);
-    unlink(path);
-    rmdir(folder);
+    scratch_folder_remove(folder);
     return result;
 }
 

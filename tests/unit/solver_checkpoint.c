@@ -4,13 +4,14 @@
 #include "solver/scheme.h"
 #include "tests/unit/run_bytes.h"
 #include "tests/unit/runs.h"
+#include "tests/unit/scratch.h"
 
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-static char folder[] = "/tmp/assay-checkpoint-XXXXXX";
-static char path[64];
+static char folder[SCRATCH];
+static char path[SCRATCH_BELOW];
 
 static const struct solver_checkpoint_about about = {
     "scene.lua", "/there/scene.lua", "title = 'x'", "n=4\n", "assay run scene", "1.0", NULL, NULL, 30.0, 0.0, 7, 0};
@@ -249,12 +250,9 @@ int main(void)
         {"what is said beside the state", notes},
         {"a full disk leaves the checkpoint before", full_disk},
     };
-    if (mkdtemp(folder) == NULL) {
-        return 1;
-    }
+    scratch_folder(folder);
     (void)snprintf(path, sizeof path, "%s/run.checkpoint", folder);
     int result = unit_main("checkpoints", tests, sizeof tests / sizeof *tests);
-    (void)unlink(path);
-    (void)rmdir(folder);
+    scratch_folder_remove(folder);
     return result;
 }

@@ -5,11 +5,12 @@
 #include "solver/path.h"
 #include "solver/seal.h"
 #include "tests/unit/runs.h"
+#include "tests/unit/scratch.h"
 
 #include <sys/stat.h>
 
-static char folder[] = "/tmp/assay-hostile-XXXXXX";
-static char path[64];
+static char folder[SCRATCH];
+static char path[SCRATCH_BELOW];
 
 #define SETTINGS "dim=2 n=2 scheme=ulsph support=2.4 material.model=linear-elastic"
 static const char moving[] = "probes = { { name = 'middle', X = each(0.5) } }\n"
@@ -314,13 +315,10 @@ int main(void)
         {"of another run", of_another_run},
         {"any bytes, sealed", any_bytes},
     };
-    if (mkdtemp(folder) == NULL) {
-        return 1;
-    }
+    scratch_folder(folder);
     (void)snprintf(path, sizeof path, "%s/run.checkpoint", folder);
     int result = unit_main("hostile checkpoints", tests, sizeof tests / sizeof *tests);
-    (void)unlink(path);
-    (void)rmdir(folder);
+    scratch_folder_remove(folder);
     free(good);
     return result;
 }

@@ -1,5 +1,6 @@
 /* Records: what is written is what is read; the same record gives the same bytes; files are whole or absent. */
 #include "tests/unit/body.h"
+#include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 
 #include <dirent.h>
@@ -9,8 +10,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/assay-record-XXXXXX";
-static char path[64], twin[64];
+static char folder[SCRATCH];
+static char path[SCRATCH_BELOW], twin[SCRATCH_BELOW];
 
 static bool same_text(const char *a, const char *b)
 {
@@ -240,7 +241,7 @@ static void names_refused(void)
 {
     struct solver_record *record = made(1);
     struct solver_error error;
-    static const char *const bad[] = {"", ".h5", "/tmp/.vtkhdf", "body", "body.png", "/no/such/folder/body.h5"};
+    static const char *const bad[] = {"", ".h5", "/no/.vtkhdf", "body", "body.png", "/no/such/folder/body.h5"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         error.text[0] = '\0';
         CU_ASSERT_FALSE(solver_record_save(bad[i], record, &error));
@@ -283,8 +284,8 @@ static bool save_on_small_disk(const struct solver_record *record, rlim_t limit)
 
 static void full_disk(void)
 {
-    char here[] = "/tmp/assay-full-XXXXXX", old_xdmf[128], xdmf[128], keep[64];
-    CU_ASSERT_FATAL(mkdtemp(here) != NULL);
+    char here[SCRATCH], old_xdmf[SCRATCH_BELOW], xdmf[SCRATCH_BELOW], keep[SCRATCH_BELOW];
+    scratch_folder(here);
     memcpy(keep, path, sizeof keep);
     (void)snprintf(path, sizeof path, "%s/body.h5", here);
     (void)snprintf(xdmf, sizeof xdmf, "%s/body.xdmf", here);
@@ -376,18 +377,10 @@ int main(void)
         {"every truncation is refused", truncated},
         {"every flipped byte is refused", flipped},
     };
-    if (mkdtemp(folder) == NULL) {
-        return 2;
-    }
+    scratch_folder(folder);
     (void)snprintf(path, sizeof path, "%s/body.vtkhdf", folder);
     (void)snprintf(twin, sizeof twin, "%s/twin.h5", folder);
     int result = unit_main("record", tests, sizeof tests / sizeof *tests);
-    static const char *const left[] = {"body.vtkhdf", "body.xdmf", "twin.h5", "twin.xdmf"};
-    for (size_t i = 0; i < sizeof left / sizeof *left; i++) {
-        char name[128];
-        (void)snprintf(name, sizeof name, "%s/%s", folder, left[i]);
-        (void)remove(name);
-    }
-    (void)rmdir(folder);
+    scratch_folder_remove(folder);
     return result;
 }

@@ -3,12 +3,13 @@
 #include "solver/file.h"
 #include "solver/record_format.h"
 #include "tests/unit/body.h"
+#include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char path[64], xdmf[64];
+static char folder[SCRATCH], path[SCRATCH_BELOW];
 
 /* Ends the file with the checksum of what it holds, as a forger would. */
 static void seal(void)
@@ -302,7 +303,7 @@ static void refuse_path(const char *name, const char *word)
 static void no_records(void)
 {
     refuse_path("/no/such/record.h5", "No such file");
-    refuse_path("/tmp", "is a folder");
+    refuse_path(folder, "is a folder");
     refuse_path("/dev/null", "not a plain file");
     refuse_path(TEST_SOURCE_DIR "/CMakeLists.txt", "is not HDF5");
     (void)remove(path);
@@ -331,10 +332,9 @@ int main(void)
         {"forged records are refused", forgeries},
         {"what is no record is refused", no_records},
     };
-    (void)snprintf(path, sizeof path, "/tmp/assay-hostile-%ld.h5", (long)getpid());
-    (void)snprintf(xdmf, sizeof xdmf, "/tmp/assay-hostile-%ld.xdmf", (long)getpid());
+    scratch_folder(folder);
+    (void)snprintf(path, sizeof path, "%s/body.h5", folder);
     int result = unit_main("hostile records", tests, sizeof tests / sizeof *tests);
-    (void)remove(path);
-    (void)remove(xdmf);
+    scratch_folder_remove(folder);
     return result;
 }

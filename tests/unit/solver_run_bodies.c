@@ -1,6 +1,7 @@
 /* Runs of several bodies: each moves as if the others were not there, until a contact law says otherwise. */
 #include "solver/record.h"
 #include "tests/unit/runs.h"
+#include "tests/unit/scratch.h"
 
 /* A box and a ring that touch and drive at one another. */
 static const char scene[] = "title, dim, n, t_end = 'bodies', 2, 5, 1\n"
@@ -15,13 +16,8 @@ static const char scene[] = "title, dim, n, t_end = 'bodies', 2, 5, 1\n"
 static struct sample begin(const char *const *overrides, size_t count)
 {
     struct sample sample = {.run = NULL};
-    char path[] = "/tmp/assay-bodies-XXXXXX";
-    int handle = mkstemp(path);
-    CU_ASSERT_FATAL(handle >= 0);
-    FILE *file = fdopen(handle, "w");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
-    CU_ASSERT_FATAL(fputs(scene, file) >= 0);
-    CU_ASSERT_EQUAL_FATAL(fclose(file), 0);
+    char path[SCRATCH];
+    scratch_text(path, "%s", scene);
     bool loaded = solver_scene_load(path, overrides, count, &sample.scene, &sample.error);
     unlink(path);
     if (!loaded || !solver_run_create(sample.scene, &sample.run, &sample.error)) {

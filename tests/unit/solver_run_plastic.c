@@ -1,6 +1,7 @@
 /* Runs of bodies that flow plastically: what they cost, remember, show and dissipate. */
 #include "solver/record.h"
 #include "tests/unit/runs.h"
+#include "tests/unit/scratch.h"
 
 static const char elastic[] = "material = { model = 'hencky', E = 3, nu = 0.3, rho = 2 }\n";
 static const char plastic[] =
@@ -208,14 +209,10 @@ static void refused(void)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct solver_scene *scene = NULL;
         struct solver_error error = {.code = SOLVER_OK};
-        char path[] = "/tmp/assay-plastic-XXXXXX", words[256];
+        char path[SCRATCH], words[256];
         const char *override[8];
         size_t count = 0;
-        int handle = mkstemp(path);
-        CU_ASSERT_FATAL(handle >= 0);
-        FILE *file = fdopen(handle, "w");
-        CU_ASSERT_PTR_NOT_NULL_FATAL(file);
-        CU_ASSERT_FATAL(fprintf(file, "%s%s%s", block, plain_domain, plastic) > 0 && fclose(file) == 0);
+        scratch_text(path, "%s%s%s", block, plain_domain, plastic);
         (void)snprintf(words, sizeof words, "%s", cases[i][0]);
         char *rest = words;
         for (char *word = strtok_r(rest, " ", &rest); word != NULL && count < 8; word = strtok_r(rest, " ", &rest)) {

@@ -1,6 +1,7 @@
 /* Scenes of bodies of any shape: what they give a run, planes of symmetry, refusals. */
 #include "solver/cloud.h"
 #include "tests/unit/runs.h"
+#include "tests/unit/scratch.h"
 
 static const char disc[] =
     "domain = { shape = 'solid', lower = {-1.25, -1.25}, upper = {1.25, 1.25}, symmetry = SYMMETRY,\n"
@@ -67,15 +68,10 @@ static void quality(void)
 /* The error of a scene that is refused when it is read, or when its run is made. */
 static struct solver_error refused(const char *text, int dim)
 {
-    char path[] = "/tmp/assay-solid-XXXXXX", word[16];
+    char path[SCRATCH], word[16];
     const char *overrides[2] = {word, "stencil=closed"};
     struct sample sample = {.run = NULL};
-    int handle = mkstemp(path);
-    CU_ASSERT_FATAL(handle >= 0);
-    FILE *file = fdopen(handle, "w");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
-    CU_ASSERT_FATAL(fprintf(file, "%s%s%s\n", block, plain_material, text) > 0);
-    CU_ASSERT_EQUAL_FATAL(fclose(file), 0);
+    scratch_text(path, "%s%s%s\n", block, plain_material, text);
     (void)snprintf(word, sizeof word, "dim=%d", dim);
     CU_ASSERT(!solver_scene_load(path, overrides, 2, &sample.scene, &sample.error) ||
               !solver_run_create(sample.scene, &sample.run, &sample.error));

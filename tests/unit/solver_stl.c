@@ -4,12 +4,13 @@
 #include "solver/stl.h"
 #include "tests/unit/clouds.h"
 #include "tests/unit/runs.h"
+#include "tests/unit/scratch.h"
 
 #include <limits.h>
 
 static const double pi = 3.14159265358979323846;
-static char folder[] = "/tmp/assay-stl-XXXXXX";
-static char path[64];
+static char folder[SCRATCH];
+static char path[SCRATCH_BELOW];
 
 /* --- what is written --- */
 
@@ -286,7 +287,7 @@ static void cloud_of_a_ring(void)
 /* A scene beside its file names it without the folder, and moves as a body should: momentum is kept. */
 static void scene_beside_its_file(void)
 {
-    char scene_path[80];
+    char scene_path[SCRATCH_BELOW];
     const char *overrides[] = {"stencil=closed", "evolved=pF"};
     struct sample sample = {.run = NULL};
     make_ring(48, 24);
@@ -430,11 +431,9 @@ int main(void)
         {"refusals", refusals},
         {"changed bytes", changed_bytes},
     };
-    if (mkdtemp(folder) == NULL) {
-        return 1;
-    }
+    scratch_folder(folder);
     (void)snprintf(path, sizeof path, "%s/body.stl", folder);
     int result = unit_main("solver surfaces of triangles", tests, sizeof tests / sizeof *tests);
-    (void)rmdir(folder);
+    scratch_folder_remove(folder);
     return result;
 }

@@ -1,4 +1,5 @@
 /* Histories of two configurations compared, and which configuration is beside which. */
+#include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 #include "verify/beside.h"
 
@@ -182,18 +183,13 @@ static void which_is_beside(void)
 /* A scene of its own, written to a file with `more` at its end; what the loader or the study says against it. */
 static void refused(const char *more, const char *says)
 {
-    char path[] = "/tmp/assay-beside-XXXXXX";
-    int handle = mkstemp(path);
-    CU_ASSERT_FATAL(handle >= 0);
-    FILE *file = fdopen(handle, "w");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
-    (void)fprintf(file,
-                  "title, dim, n, t_end = 'block', 2, 4, 1\nparameters = { a = 1 }\n"
-                  "domain = { lower = {0, 0}, upper = {1, 1} }\n"
-                  "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2 }\n"
-                  "probes = { { name = 'corner', X = {1, a} } }\n%s\n",
-                  more);
-    CU_ASSERT_EQUAL_FATAL(fclose(file), 0);
+    char path[SCRATCH];
+    scratch_text(path,
+                 "title, dim, n, t_end = 'block', 2, 4, 1\nparameters = { a = 1 }\n"
+                 "domain = { lower = {0, 0}, upper = {1, 1} }\n"
+                 "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2 }\n"
+                 "probes = { { name = 'corner', X = {1, a} } }\n%s\n",
+                 more);
     struct verify_options options = {.operand_count = 1, .operand = {path}};
     struct verify_beside beside = {.scene = NULL};
     struct solver_scene *scene = NULL;

@@ -3,6 +3,7 @@
 #include "solver/checkpoint.h"
 #include "solver/scheme.h"
 #include "tests/unit/run_bytes.h"
+#include "tests/unit/scratch.h"
 #include "verify/find.h"
 #include "verify/simulate.h"
 
@@ -11,8 +12,8 @@
 #include <string.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/assay-checkpoint-XXXXXX";
-static char checkpoint_path[64];
+static char folder[SCRATCH];
+static char checkpoint_path[SCRATCH_BELOW];
 
 enum { HALF = 4 }; /* steps before the checkpoint, and after it */
 
@@ -132,12 +133,9 @@ static void every_scene(void)
 int main(void)
 {
     static const struct unit_test tests[] = {{"every scene goes on as if nothing had happened", every_scene}};
-    if (mkdtemp(folder) == NULL) {
-        return 1;
-    }
+    scratch_folder(folder);
     (void)snprintf(checkpoint_path, sizeof checkpoint_path, "%s/run.checkpoint", folder);
     int result = unit_main("checkpoints of scenes", tests, sizeof tests / sizeof *tests);
-    (void)unlink(checkpoint_path);
-    (void)rmdir(folder);
+    scratch_folder_remove(folder);
     return result;
 }

@@ -1,4 +1,5 @@
 /* Where the program finds what comes with it. */
+#include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 #include "verify/find.h"
 
@@ -9,7 +10,7 @@
 #include <unistd.h>
 
 /* An installed tree, which is then moved. */
-static char root[] = "/tmp/assay-find-XXXXXX";
+static char root[SCRATCH];
 
 static const char *in_root(const char *name)
 {
@@ -65,10 +66,7 @@ int main(void)
         {"not from a build tree", not_from_a_build_tree},
         {"in the source tree", in_the_source_tree},
     };
-    char made[VERIFY_PATH];
-    if (mkdtemp(root) == NULL || realpath(root, made) == NULL || strcmp(made, root) != 0) {
-        return 1;
-    }
+    scratch_folder(root);
     static const char *const folders[] = {
         "a", "a/bin", "a/cabin", "a/build", "a/share", "a/share/assay", "a/share/assay/scenes"};
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
@@ -77,7 +75,6 @@ int main(void)
         }
     }
     const int result = unit_main("find", tests, sizeof tests / sizeof *tests);
-    char command[VERIFY_PATH + 16];
-    (void)snprintf(command, sizeof command, "rm -rf %s", root);
-    return system(command) == 0 ? result : 1;
+    scratch_folder_remove(root);
+    return result;
 }

@@ -1,4 +1,5 @@
 /* The file that a study of costs is kept in: read as written, and refused where anything is wrong with it. */
+#include "tests/unit/scratch.h"
 #include "tests/unit/trades.h"
 
 #include <inttypes.h>
@@ -6,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char file[] = "/tmp/assay-study-XXXXXX";
+static char file[SCRATCH];
 
 static void put(const char *bytes, size_t size)
 {
@@ -188,11 +189,7 @@ int main(void)
         {"hostile files", hostile},
         {"a pipe", no_plain_file},
     };
-    int descriptor = mkstemp(file);
-    if (descriptor < 0) {
-        return 1;
-    }
-    (void)close(descriptor);
+    scratch_file(file);
     int result = unit_main("trade file", tests, sizeof tests / sizeof *tests);
     unlink(file);
     verify_trade_free(&trade);

@@ -3,7 +3,7 @@
 #include "tests/unit/trades.h"
 #include "verify/trade_pick.h"
 
-static char study[] = "/tmp/assay-pick-XXXXXX";
+static char study[SCRATCH];
 static struct solver_scene *scene;
 
 /* A study of the plain scene: what is cheapest in time is not so in pairs. */
@@ -116,11 +116,7 @@ int main(void)
         {"what the run is told", what_the_run_is_told},
         {"refusals", refusals},
     };
-    int descriptor = mkstemp(study);
-    if (descriptor < 0) {
-        return 1;
-    }
-    (void)close(descriptor);
+    scratch_file(study);
     int result = scene_files_main("trade pick", tests, sizeof tests / sizeof *tests);
     unlink(study);
     verify_trade_free(&trade);
