@@ -7,6 +7,13 @@
 
 static const double shortest_sample = 0.05; /* [s] */
 
+double verify_clock(int threads)
+{
+    struct timespec at;
+    (void)clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &at);
+    return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
+}
+
 double verify_bandwidth(double bytes, int threads)
 {
     size_t count = (size_t)(bytes / (3.0 * sizeof(double))) + 1;
@@ -25,7 +32,7 @@ double verify_bandwidth(double bytes, int threads)
             b[i] = 1.0;
         }
         for (int pass = 0; pass < 3 * VERIFY_SAMPLES; pass++) {
-            double begun = omp_get_wtime();
+            double begun = verify_clock(threads);
 #pragma omp parallel num_threads(threads)
             for (size_t time = 0; time < times; time++) {
                 double factor = 0.5 * (double)(pass + (int)time);
@@ -34,7 +41,7 @@ double verify_bandwidth(double bytes, int threads)
                     y[i] = a[i] + factor * b[i];
                 }
             }
-            best = fmin(best, (omp_get_wtime() - begun) / (double)times);
+            best = fmin(best, (verify_clock(threads) - begun) / (double)times);
             check += y[(size_t)pass % count]; /* the sums are wanted: no pass may be left out */
         }
         best = check >= 0.0 ? best : INFINITY;
@@ -44,13 +51,6 @@ double verify_bandwidth(double bytes, int threads)
     free(a);
     free(b);
     return isfinite(best) ? 3.0 * sizeof(double) * entries / best : 0.0;
-}
-
-double verify_clock(int threads)
-{
-    struct timespec at;
-    (void)clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC, &at);
-    return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
 }
 
 /* Seconds that so many steps take. */

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Builds with the address and undefined-behaviour sanitizers and runs all unit programs, and the program on files that
 # are malformed, checkpoints among them.
-# Usage: sanitize.sh SOURCE BUILD
+# Usage: sanitize.sh SOURCE BUILD [CMAKE ARGS]
 set -euo pipefail
 source=$1 build=$2
 # Reports need lines, and no more of what debuggers want, which would take half of the time to link. One path for the
 # hot loops, as in the debug build: they are one text.
-settings=(-DASSAY_DEBUG='-Og -g1')
+settings=("${@:3}" -DASSAY_DEBUG='-Og -g1')
 [[ $(uname -m) != x86_64 ]] || settings+=(-DASSAY_ARCH=x86-64-v3)
 "$(dirname -- "$0")/build.sh" "$source" "$build" sanitize "${settings[@]}"
 for program in "$build"/tests/test_*; do

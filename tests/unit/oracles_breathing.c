@@ -326,27 +326,31 @@ static void knows_what_lies_outside(void)
 /* Fields of another mode, under the check of the true one. */
 static const struct oracle *other;
 
+static int other_which;
 static void other_state(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state)
 {
     (void)oracle;
-    kind_of(SPHERE)->state(other, X, t, state);
+    kind_of(other_which)->state(other, X, t, state);
 }
 
 static void another_mode_is_caught(void)
 {
-    const struct oracle_kind *kind = kind_of(SPHERE);
-    struct oracle_kind spoiled = *kind;
-    struct oracle *o = create_with(kind, NULL),
-                  *second = create_with(kind, (const struct setting[SETTINGS]){{"mode", 2}});
-    struct oracle_check line[ORACLE_LAWS];
-    size_t count = 0;
-    spoiled.state = other_state;
-    other = o;
-    CU_ASSERT_TRUE(oracle_self_check(&spoiled, o, line, &count)); /* going through the copy is no fault */
-    other = second;
-    CU_ASSERT_FALSE(oracle_self_check(&spoiled, o, line, &count));
-    kind->destroy(second);
-    kind->destroy(o);
+    for (int which = 0; which < KINDS; which++) {
+        const struct oracle_kind *kind = kind_of(which);
+        other_which = which;
+        struct oracle_kind spoiled = *kind;
+        struct oracle *o = create_with(kind, NULL),
+                      *second = create_with(kind, (const struct setting[SETTINGS]){{"mode", 2}});
+        struct oracle_check line[ORACLE_LAWS];
+        size_t count = 0;
+        spoiled.state = other_state;
+        other = o;
+        CU_ASSERT_TRUE(oracle_self_check(&spoiled, o, line, &count)); /* going through the copy is no fault */
+        other = second;
+        CU_ASSERT_FALSE(oracle_self_check(&spoiled, o, line, &count));
+        kind->destroy(second);
+        kind->destroy(o);
+    }
 }
 
 static void refuses_what_it_cannot_answer(void)
