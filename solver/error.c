@@ -11,7 +11,7 @@ bool solver_fail(struct solver_error *error, enum solver_code code, const char *
     error->code = code;
     (void)vsnprintf(error->text, sizeof error->text, format, arguments);
     va_end(arguments);
-    solver_plain(error->text);
+    solver_plain(error->text, true); /* lists stand in lines of their own */
     return false;
 }
 
@@ -27,11 +27,11 @@ static size_t printable(const unsigned char *c)
     return begins && !control ? length : 0;
 }
 
-void solver_plain(char *text)
+void solver_plain(char *text, bool lines)
 {
     for (unsigned char *c = (unsigned char *)text; *c != '\0';) {
         size_t length = printable(c);
-        if (length == 0) {
+        if (length == 0 && !(lines && *c == '\n')) {
             *c = strchr("\t\n", *c) != NULL ? ' ' : '?';
         }
         c += length > 0 ? length : 1;

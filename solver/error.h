@@ -23,7 +23,8 @@ bool solver_fail(struct solver_error *error, enum solver_code code, const char *
     __attribute__((format(printf, 3, 4)));
 
 /* Makes text plain in place, since it may hold what stood in a file: control characters, with which a terminal can be
- * driven, become '?', as does what is no UTF-8, and ends of lines and tabs become blanks. */
-void solver_plain(char *text);
+ * driven, become '?', as does what is no UTF-8, and tabs become blanks, as do ends of lines where `lines` does not let
+ * them stay. */
+void solver_plain(char *text, bool lines);
 
 #endif

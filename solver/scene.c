@@ -71,7 +71,7 @@ static bool describe(struct solver_scene *scene, const char *path, const char *c
         return solver_fail(error, SOLVER_BAD_INPUT, "%.200s...: the path has %zu bytes; at most %zu are possible", path,
                            strlen(path), sizeof scene->path - 1);
     snprintf(scene->path, sizeof scene->path, "%s", path);
-    solver_plain(scene->path);
+    solver_plain(scene->path, false);
     if (strcmp(scene->path, path) !=
         0) /* it is printed, and stands in records; that of a checkpoint comes from a file */
         return solver_fail(error, SOLVER_BAD_INPUT,

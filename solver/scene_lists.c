@@ -298,7 +298,7 @@ static void read_variant_name(lua_State *L, char name[SOLVER_NAME])
     const char *text = lua_tostring(L, -2);
     bool fits = *text && strlen(text) < SOLVER_NAME && strlen(text) == lua_rawlen(L, -2);
     snprintf(name, SOLVER_NAME, "%.*s", SOLVER_NAME - 1, text);
-    solver_plain(name);
+    solver_plain(name, false);
     if (!fits || strcmp(name, text) != 0)
         scene_refuse(L, "trade: expected names of 1 to %d bytes without control characters", SOLVER_NAME - 1);
 }

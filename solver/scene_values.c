@@ -37,7 +37,7 @@ void scene_read_text(lua_State *L, const char *key, int index, char *out, size_t
         if ((unsigned char)text[i] < ' ')
             scene_refuse(L, "%s: expected text on one line, got a control character (code %d)", key, text[i]);
     memcpy(out, text, length + 1);
-    solver_plain(out);
+    solver_plain(out, false);
     if (memcmp(out, text, length) != 0)
         scene_refuse(L, "%s: expected text in UTF-8 without control characters", key);
 }

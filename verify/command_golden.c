@@ -47,8 +47,8 @@ static void print_lines(const struct golden_report *report)
     (void)printf("  %-28s %12s    %-12s\n", "field", "difference", "bound");
     for (size_t i = 0; i < report->count; i++) {
         struct golden_line line = report->line[i];
-        solver_plain(line.field); /* columns are named by the file */
-        solver_plain(line.place);
+        solver_plain(line.field, false); /* columns are named by the file */
+        solver_plain(line.place, false);
         (void)printf("  %-28s %12.4e <= %-12.4e %s%s%s\n", line.field, line.difference, line.bound,
                      line.pass ? "PASS" : "FAIL", line.pass ? "" : ": ", line.pass ? "" : line.place);
     }

@@ -8,7 +8,7 @@ const char *verify_version(void)
 int verify_complain(const struct solver_error *error)
 {
     struct solver_error plain = *error; /* words may have been added to its text */
-    solver_plain(plain.text);
+    solver_plain(plain.text, true);
     (void)fflush(stdout);
     (void)fprintf(stderr, "assay: %s\n", plain.text);
     return (int)verify_exit_code(error);

@@ -303,7 +303,7 @@ static bool finish(struct comparison *c)
             used += added > 0 ? (size_t)added : 0;
         }
     }
-    solver_plain(ignored);
+    solver_plain(ignored, false);
     return any ||
            verify_sample_refuse(c->sample, c->error,
                                 "holds no field that can be compared; expected u, v, p, F, H, J, P, sigma, pressure or "

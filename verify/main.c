@@ -14,9 +14,10 @@
 static const struct verify_command commands[] = {
     {.name = "list",
      .operands = "[SUBJECT]",
-     .summary = "scenes, oracles, schemes, materials, stencils, integrators",
+     .summary = "scenes, oracles, schemes, materials, stencils, integrators, measures, keys",
      .help = "Lists what there is, one line each. SUBJECT is one of scenes, oracles, schemes, materials,\n"
-             "stencils, integrators, or keys: every key a scene understands, with what it expects.",
+             "stencils, integrators, measures: how figures are measured, or keys: every key a scene understands, with\n"
+             "what it expects.",
      .most = 1,
      .run = verify_command_list},
     {.name = "run",

@@ -34,7 +34,7 @@ struct verify_sample *verify_samples_add(struct verify_samples *samples, const c
         return NULL;
     }
     (void)snprintf(sample->place, sizeof sample->place, "%s", place);
-    solver_plain(sample->place); /* groups are named by the file */
+    solver_plain(sample->place, false); /* groups are named by the file */
     sample->time.value = sample->h.value = NAN;
     samples->sample[samples->count++] = sample;
     return sample;
