@@ -365,7 +365,7 @@ static void bad_formulas(void)
 
 static void unreadable_files(void)
 {
-    char missing[96], pipe_path[96];
+    char missing[SCRATCH_BELOW], pipe_path[SCRATCH_BELOW];
     snprintf(missing, sizeof missing, "%s/none.lua", folder);
     snprintf(pipe_path, sizeof pipe_path, "%s/pipe.lua", folder);
     check_refused(missing, NULL, "cannot be opened: No such file or directory");
