@@ -269,6 +269,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .steps = run->step,
         .spacing = run->cloud->spacing,
         .step = run->scheme->largest_step(run->system),
+        .shorter = geometry.shorter,
         .mass = mass,
         .setup_seconds = run->setup_seconds,
         .seconds = run->seconds,

@@ -161,6 +161,7 @@ static struct solver_geometry geometry(const void *of)
         .bytes = (double)(solver_skin_bytes(&system->skin) + sizeof(double) * (system->pair_room * record + masses)),
         .passes = 3, /* geometry, gradients, rates */
         .residual = NAN,
+        .shorter = system->meeting,
     };
 }
 
