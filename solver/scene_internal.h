@@ -77,7 +77,7 @@ struct solver_scene_lua {
     int values, shown, upvalues;  /* registry references: key -> value; as scripts see it; what formulas captured */
     int formula[SOLVER_FORMULAS]; /* registry references, LUA_NOREF if absent */
     size_t parameter_count;
-    struct solver_named parameter[SOLVER_NAMED];
+    struct solver_named parameter[SOLVER_PARAMETERS];
     size_t override_count;
     struct scene_override *override; /* [override_count]; freed after loading */
 };

@@ -30,6 +30,8 @@ static const struct verify_extreme table[] = {
     {"impact", "bodies that hit a rigid wall", verify_extreme_impact, BLOCK, "d n impact"},
     {"contrast", "density and stiffness that jump a million times within a bar", verify_extreme_contrast,
      "bimaterial-wave", "n E2 rho2"},
+    {"slanted", "the same across a plane that is slanted against the lattice: a free body gains no energy",
+     verify_extreme_slanted, BLOCK, "d n jump random speed t_end"},
     {"small", "the smallest clouds and the thinnest bodies: a right answer or a refusal", verify_extreme_small, BLOCK,
      "d n levels thickness flight"},
     {.name = NULL},

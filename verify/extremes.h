@@ -84,6 +84,7 @@ bool verify_extreme_stretch(const struct verify_extremes *in, struct solver_erro
 bool verify_extreme_perturbed(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_impact(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_contrast(const struct verify_extremes *in, struct solver_error *error);
+bool verify_extreme_slanted(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_small(const struct verify_extremes *in, struct solver_error *error);
 
 #endif
