@@ -30,9 +30,12 @@ assay_test(extremes-notice-no-damping LABELS stability mustfail COMMAND ${cli} 1
   "48 of these fail" $<TARGET_FILE:assay> extremes alternating --set jst.kappa4=0 --set scheme=jst)
 assay_test(extremes-know-their-names LABELS unit COMMAND ${cli} 2
   "did you mean scale" $<TARGET_FILE:assay> extremes scales)
+# What single precision rounds is told from what a place or a turn changes.
+assay_test(extremes-place-single LABELS stability gate COMMAND $<TARGET_FILE:assay> extremes place --set precision=single)
 # No row is measured with words that are wrong, or that say something else than the row does; the report is there or not.
 foreach(row "unknown-key;unknown key;impact;--set;nonsense=1" "wrong-value;expected one of;impact;--set;scheme=xyz"
-        "no-row;no row is of anything;impact;4D" "driven-key;sets this key itself;perturbed;--set;perturb=0.1"
+        "no-row;no row is of anything;impact;4D" "single;moves particles as fast;stretch;--set;precision=single"
+        "driven-key;sets this key itself;perturbed;--set;perturb=0.1"
         "no-folder;test-out/none/extremes.json;impact;--json;test-out/none/extremes.json")
   list(POP_FRONT row name text)
   assay_test(extremes-refuse-${name} LABELS mustfail COMMAND ${cli} 2 ${text} $<TARGET_FILE:assay> extremes ${row})
