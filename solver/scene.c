@@ -270,6 +270,7 @@ static int read_scene(lua_State *L)
     check_rigid_wall(L, scene);
     scene_read_bodies(L, scene);
     scene_read_die(L, scene);
+    scene_check_range(L, scene);
     check_precision(L, scene);
     check_slopes(L, scene);
     for (int f = 0; strcmp(scene->initial_from, "oracle") == 0 && f <= SOLVER_INITIAL_F; f++)

@@ -168,6 +168,37 @@ static void test_refused(void)
     }
 }
 
+/* A composite body of the largest moduli and the smallest densities that scenes may have, and of the reverse, runs as
+ * one of moderate numbers does; beyond them it is refused. */
+static void test_range(void)
+{
+    static const struct {
+        double E, rho, length;
+    } rows[] = {{1.0, 1.0, 1.0}, {1e50, 1e-50, 1e23}, {1e-50, 1e50, 1e-23}, {1e50, 1e50, 1e23}, {1e-50, 1e-50, 1e-23}};
+    double moderate = NAN;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char text[2048];
+        double c = sqrt(rows[i].E / rows[i].rho);
+        double L = rows[i].length;
+        (void)snprintf(text, sizeof text,
+                       "domain = { lower = {0, 0, 0}, upper = {%.17g, %.17g, %.17g} }\n"
+                       "material = { model = 'neo-hookean', E = %.17g, nu = 0.3, rho = %.17g,\n"
+                       "    at = function(X) return %.17g, 0.3, %.17g end }\n"
+                       "initial = { velocity = function(X, Y, Z) return %.17g * sin(X / %.17g), 0, 0 end }\n",
+                       L, L, L, rows[i].E, rows[i].rho, rows[i].E, rows[i].rho, 1e-2 * c, L);
+        struct sample sample = start(text, "dim=3 n=4 evolved=pFHJ cfl=0.3 t_end=%.17g", 0.5 * L / c);
+        advance_to(&sample, 0.5 * L / c);
+        double rise = rise_of_energy(&sample);
+        moderate = i == 0 ? rise : moderate;
+        expect_below("energy", fabs(rise - moderate), 1e-13);
+        finish(&sample);
+    }
+    static const char beyond[] = "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2,\n"
+                                 "    at = function(X) return X > 0.9 and 1e51 or 3, 0.3, 2 end }\n";
+    struct solver_error error = refusal(beyond, "dim=2");
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "products of moduli would leave the range of double precision"));
+}
+
 /* A face that is moved at a constant rate until 0.3 and then let go: it keeps its velocity to the last, a step ends at
  * 0.3 exactly, and what other faces hold stays held. */
 static void test_let_go(void)
@@ -206,6 +237,7 @@ int main(void)
         {"momentum of a composite body", test_momentum},
         {"a step for materials that differ ten thousand times", test_contrast},
         {"the step where kernels cross", test_kernels},
+        {"the largest and smallest numbers", test_range},
         {"energy where materials meet", test_energy},
         {"constants that cannot be", test_refused},
         {"a face that is let go", test_let_go},
