@@ -190,7 +190,8 @@ static void test_range(void)
         advance_to(&sample, 0.5 * L / c);
         double rise = rise_of_energy(&sample);
         moderate = i == 0 ? rise : moderate;
-        expect_below("energy", fabs(rise - moderate), 1e-13);
+        /* strain energy is 1e-4 of the modulus, and every step rounds its sum of terms of the modulus' size */
+        expect_below("energy", fabs(rise - moderate), 1e-10);
         finish(&sample);
     }
     static const char beyond[] = "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2,\n"
