@@ -26,7 +26,7 @@ local function slanted(X, Y, Z) -- a plane through the body, with steps along th
     local times = X - origin - 0.3 * y - 0.1 * z < 0.35 * length and 1 or jump
     return modulus * times, 0.3, density * times
 end
-material = { model = "neo-hookean", E = modulus, nu = 0.3, rho = density, at = jump ~= 1 and slanted or nil } -- Pa, -, kg/m^3
+material = { model = "neo-hookean", E = modulus, nu = 0.3, rho = density, at = jump ~= 1 and slanted or nil } -- Pa, kg/m^3
 local c = math.sqrt(modulus / density) -- m/s
 t_end = periods * length / c -- s
 
