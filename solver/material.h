@@ -18,6 +18,9 @@ struct solver_material_constants {
     double zp, zs;            /* impedances rho cp, rho cs [kg/(m^2 s)] */
 };
 
+/* Young's moduli [Pa] and densities [kg/m^3] are within this of one: scene_range.c says why. */
+static const double solver_material_most = 1e50;
+
 /* Where constants are an array over particles, `stride` is 1, and 0 where one entry serves all. */
 
 /* From Young's modulus [Pa], Poisson's ratio in (-1, 0.5) and density [kg/m^3]. */

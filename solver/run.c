@@ -43,6 +43,15 @@ static bool constants_at(const struct solver_run *run, size_t a, struct solver_m
                            "got %g, %g, %g",
                            run->scene->path, X[0], X[1], X[2], value[0], value[1], value[2]);
     }
+    for (int i = 0; i < 3; i += 2) {
+        if (value[i] > solver_material_most || value[i] < 1.0 / solver_material_most) {
+            return solver_fail(error, SOLVER_BAD_INPUT,
+                               "%s: material.at at X = (%g, %g, %g) m: products of %s would leave the range of double "
+                               "precision; expected a number in [%g, %g], got %g; choose other units",
+                               run->scene->path, X[0], X[1], X[2], i == 0 ? "moduli" : "densities",
+                               1.0 / solver_material_most, solver_material_most, value[i]);
+        }
+    }
     *constants = solver_material_constants(value[0], value[1], value[2]);
     return true;
 }
@@ -269,6 +278,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .steps = run->step,
         .spacing = run->cloud->spacing,
         .step = run->scheme->largest_step(run->system),
+        .shorter = geometry.shorter,
         .mass = mass,
         .setup_seconds = run->setup_seconds,
         .seconds = run->seconds,

@@ -73,6 +73,8 @@ struct solver_facts {
     size_t particles, pairs, steps;
     double spacing;            /* [m] */
     double step;               /* [s] the longest that the CFL number allows now */
+    double shorter;            /* how many times shorter it is than the spacing and the fastest wave have it, as
+                                  materials meet or particles crowd; 1: not */
     double mass;               /* [kg]; per unit thickness in 2D, per unit area in 1D */
     double setup_seconds;      /* cloud and stencil */
     double seconds;            /* time loop alone */

@@ -203,8 +203,8 @@ static void declare_parameters(lua_State *L, int table)
         if (scene_key_is_root(name) || lua_rawget(L, shown) != LUA_TNIL)
             scene_refuse(L, "%s: the name '%s' is taken; choose another", key, name);
         lua_settop(L, shown + 2);
-        if (lua->parameter_count == SOLVER_NAMED)
-            scene_refuse(L, "parameters: at most %d are possible", SOLVER_NAMED);
+        if (lua->parameter_count == SOLVER_PARAMETERS)
+            scene_refuse(L, "parameters: at most %d are possible", SOLVER_PARAMETERS);
         for (size_t i = 0; i < lua->override_count; i++)
             if (!strcmp(lua->override[i].key, name)) {
                 lua_pop(L, 1);

@@ -42,6 +42,8 @@ int scene_key_find(const char *path);
 const struct scene_key *scene_key_rule(int index);
 /* Whether `name` is a key or the first part of one ("material"). */
 bool scene_key_is_root(const char *name);
+/* Refuses moduli, densities and lengths whose products leave the range of double precision. */
+void scene_check_range(lua_State *L, const struct solver_scene *scene);
 /* Whether `--set PATH=...` can mean anything; a name without dots may still be a parameter. */
 bool scene_key_admits(const char *path);
 /* ", did you mean material.nu?" for the nearest key, "" if none is near. */
@@ -77,7 +79,7 @@ struct solver_scene_lua {
     int values, shown, upvalues;  /* registry references: key -> value; as scripts see it; what formulas captured */
     int formula[SOLVER_FORMULAS]; /* registry references, LUA_NOREF if absent */
     size_t parameter_count;
-    struct solver_named parameter[SOLVER_NAMED];
+    struct solver_named parameter[SOLVER_PARAMETERS];
     size_t override_count;
     struct scene_override *override; /* [override_count]; freed after loading */
 };

@@ -34,6 +34,7 @@ struct solver_geometry {
     double bytes;    /* of all that is not a field of the state */
     int passes;      /* times that one evaluation reads it */
     double residual; /* of a stencil (run.h); NAN where there is none */
+    double shorter;  /* how many times shorter steps are than the spacing and the fastest wave have them; 1: not */
 };
 
 /* One particle, for pictures, files and norms; tensors row by row. */

@@ -23,6 +23,7 @@ struct system {
     size_t pair_room;
     double *mass, *full_mass; /* [count]; the same array where no cell is cut */
     double fastest;           /* p-wave speed [m/s] */
+    double meeting;           /* what shortens the step where materials meet; 1: nothing */
     struct solver_ulsph work;
 };
 
@@ -31,18 +32,29 @@ static const struct solver_material_constants *constants_of(const struct system 
     return system->body->constants + a * system->body->stride;
 }
 
+/* Whether there is a plane where materials meet. */
+static bool holds_interface(const struct solver_cloud *cloud)
+{
+    size_t planes = (size_t)cloud->points[0] + cloud->points[1] + cloud->points[2];
+    return cloud->interface != NULL && memchr(cloud->interface, 1, planes) != NULL;
+}
+
 static void choose_terms(struct system *system)
 {
     const struct solver_scene *scene = system->body->scene;
     static const struct solver_ulsph_loops *const loops[][3] = SOLVER_LOOPS(solver_ulsph);
     system->loops = loops[solver_path()][scene->dim - 1];
+    const struct solver_cloud *cloud = system->body->cloud;
     system->work = (struct solver_ulsph){
+        .interface = holds_interface(cloud) ? cloud->interface : NULL,
+        .site = cloud->site,
+        .points = cloud->points,
         .constants = system->body->constants,
         .stride = system->body->stride,
         .mass = system->mass,
         .full_mass = system->full_mass,
-        .h = 0.5 * scene->support * system->body->cloud->spacing,
-        .spacing = system->body->cloud->spacing,
+        .h = 0.5 * scene->support * cloud->spacing,
+        .spacing = cloud->spacing,
         .terms = scene->ulsph,
     };
 }
@@ -149,6 +161,7 @@ static struct solver_geometry geometry(const void *of)
         .bytes = (double)(solver_skin_bytes(&system->skin) + sizeof(double) * (system->pair_room * record + masses)),
         .passes = 3, /* geometry, gradients, rates */
         .residual = NAN,
+        .shorter = system->meeting,
     };
 }
 
@@ -279,6 +292,37 @@ static void bind(void *of)
     }
 }
 
+/* As of the total-Lagrangian scheme (scheme_upwind.c): a particle held by its neighbours alone swings with omega^2 = k
+ * / m, k = sum_b V_b (lambda + 2 mu)_b |V_a s L_b r|^2, where kernels reach from a stiff material to a light one faster
+ * than waves run in either. On a line of one material omega is c / sqrt(2) over the spacing for neighbours next to one
+ * another, where the fastest mode has c. Returns the square root of the largest half mean modulus of neighbours over a
+ * particle's own density, over c^2 of the fastest wave, or 1. What is dissipated where materials meet is that of the
+ * lighter one (ulsph_dim.c) and asks for nothing. */
+static double meeting_of(struct system *system)
+{
+    const struct solver_ulsph *work = &system->work;
+    size_t dim = (size_t)system->body->cloud->dim;
+    double meeting = 0.0;
+    system->loops->volumes(work, 0, system->body->cloud->count);
+    system->loops->geometry(work, 0, system->body->cloud->count);
+    for (size_t a = 0; a < system->body->cloud->count; a++) {
+        double sum = 0.0;
+        double weights = 0.0;
+        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
+            const double *pair = work->pair + ab * (dim + 2);
+            const struct solver_material_constants *of_b = constants_of(system, work->neighbour[ab]);
+            double weight = 0.0;
+            for (size_t i = 0; i < dim; i++) {
+                weight += pair[dim] * pair[dim] * pair[i] * pair[i];
+            }
+            sum += weight * of_b->zp * of_b->cp;
+            weights += weight;
+        }
+        meeting = weights > 0.0 ? fmax(meeting, sum / (weights * constants_of(system, a)->rho)) : meeting;
+    }
+    return fmax(1.0, sqrt(0.5 * meeting) / system->fastest);
+}
+
 static bool start(void *of, struct solver_error *error)
 {
     struct system *system = of;
@@ -293,7 +337,11 @@ static bool start(void *of, struct solver_error *error)
             return false;
         }
     }
-    return find_neighbours(system, error);
+    if (!find_neighbours(system, error)) {
+        return false;
+    }
+    system->meeting = system->body->stride != 0 ? meeting_of(system) : 1.0;
+    return true;
 }
 
 typedef void loop(const struct solver_ulsph *work, size_t begin, size_t end);
@@ -355,11 +403,11 @@ static void refresh(void *of, size_t begin, size_t end)
     system->loops->volumes(&system->work, begin, end);
 }
 
-/* As eq. 26, with the p-wave's speed, the fastest there is, in place of sqrt(K / rho). */
+/* As eq. 26, with the p-wave's speed, the fastest there is, in place of sqrt(K / rho); where materials meet less. */
 static double largest_step(const void *of)
 {
     const struct system *system = of;
-    return system->body->scene->cfl * system->work.h / system->fastest;
+    return system->body->scene->cfl * system->work.h / (system->fastest * system->meeting);
 }
 
 static size_t first_broken(const void *of, size_t begin, size_t end)

@@ -24,7 +24,7 @@ struct solver_upwind_system {
     void (*rates)(const void *system, size_t begin, size_t end);
     /* The operations of both, in place of those of Riemann's dissipation and of the rates. */
     void (*terms)(const void *system, struct solver_cost_terms *terms);
-    double meeting; /* by how much what couples where materials meet is faster than waves, or 1 */
+    double meeting; /* by how much what couples where materials meet, or particles crowd, is faster, or 1 */
     size_t size;    /* of the struct */
 };
 

@@ -26,6 +26,8 @@ struct solver_ulsph {
     const double *mass;                                /* [count] [kg], per unit thickness in 2D */
     const double *full_mass;                           /* [count] of a whole cell: more than the mass where the particle
                                                           lies on a face of the body */
+    const uint8_t *interface;                          /* planes where materials meet, as in the cloud; NULL: none */
+    const uint32_t *site, *points;                     /* of the cloud, where there are such planes */
     double h, spacing;                                 /* smoothing length, particle spacing d0 [m] */
     struct solver_ulsph_terms terms;
 

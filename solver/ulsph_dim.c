@@ -3,6 +3,7 @@
 #include "solver/dim.h"
 #include "solver/dim_flops.h"
 #include "solver/dim_spectral.h"
+#include "solver/interfaces.h"
 
 #include <math.h>
 
@@ -100,6 +101,26 @@ static inline struct tensor corrective_matrix(struct tensor M)
     return L;
 }
 
+/* Whether a plane where materials meet (interfaces.h) lay between two particles: what is beyond the particles on it
+ * belongs to another body, and its strain is another. Those that were far apart meet as two bodies do. */
+static inline bool across(const struct solver_ulsph *work, size_t a, size_t b)
+{
+    const uint8_t *plane = work->interface;
+    for (int I = 0; I < DIM; I++) {
+        uint32_t of_a = work->site[a * DIM + (size_t)I];
+        uint32_t of_b = work->site[b * DIM + (size_t)I];
+        uint32_t last = of_a < of_b ? of_b : of_a;
+        uint32_t first = of_a < of_b ? of_a : of_b;
+        for (uint32_t i = first + 1; last - first < SOLVER_INTERFACES_APART && i < last; i++) {
+            if (plane[i] != 0) {
+                return true;
+            }
+        }
+        plane += work->points[I];
+    }
+    return false;
+}
+
 /* What a particle gathers from its neighbours by way of the kernel. */
 struct gathered {
     struct tensor M; /* sum V s r (x) r */
@@ -120,6 +141,10 @@ static inline struct gathered gather(const struct solver_ulsph *work, size_t a, 
         vec r = load(work->x + b * LANES) - x_a;
         double slope;
         double w = kernel(height, work->h, sqrt(dot(r, r)) * per_h, &slope);
+        if (work->interface != NULL && across(work, a, b)) {
+            slope = 0.0;
+            w = 0.0;
+        }
         for (int I = 0; I < DIM; I++) {
             pair[I] = r[I];
             sums.M.column[I] += (work->cell[b] * slope * r[I]) * r;
@@ -240,6 +265,23 @@ static void gradients(const struct solver_ulsph *work, size_t begin, size_t end)
     }
 }
 
+/* C_ij (u_j - u_i) |r| where materials meet. Roe's impedance (eq. 41) is that of the heavier side: it moves a light
+ * particle at z_j / rho_i, faster than waves run by the ratio of densities. What one wave in either material carries is
+ * C = 2 z_i z_j / (z_i + z_j), with z = rho c, by the acoustic Riemann problem; of equal materials it is theirs, as
+ * eq. 41 is. Slopes jump there too, and that of a particle on the interface is a mean: both states are reconstructed by
+ * the side whose slope leaves the smaller jump, smoothly, as in upwind_dim.c. */
+static double pressure_of_meeting(const struct solver_ulsph *work, size_t a, size_t b, double jump, double slope_a,
+                                  double slope_b)
+{
+    double z_a = work->z[a] / work->root_rho[a];
+    double z_b = work->z[b] / work->root_rho[b];
+    double by_a = jump - slope_a;
+    double by_b = jump - slope_b;
+    double squares = by_a * by_a + by_b * by_b;
+    double approach = squares > 0.0 ? by_a * by_b * (by_a + by_b) / squares : 0.0;
+    return 2.0 * z_a * z_b / (z_a + z_b) * approach;
+}
+
 /* Pi_ij of the artificial viscosity (eq. 16) or the Riemann term 2 C_ij (u_j - u_i) / (rho_i rho_j) (eq. 41, 43, 44).
  * The impedance z = c rho^(3/2) of eq. 41 is a particle's own. */
 static inline double dissipation(const struct solver_ulsph *work, size_t a, size_t b, vec r, struct tensor G_a)
@@ -255,6 +297,10 @@ static inline double dissipation(const struct solver_ulsph *work, size_t a, size
                (square + 0.01 * work->h * work->h);
     }
     struct tensor G_b = load_tensor(work->v_gradient + b * TENSOR);
+    if (!same_phase(work, a, b)) {
+        return 2.0 * pressure_of_meeting(work, a, b, dot(jump, r), dot(apply(G_a, r), r), dot(apply(G_b, r), r)) /
+               (sqrt(square) * rho_a * rho_b);
+    }
     jump -= 0.5 * (apply(G_a, r) + apply(G_b, r));
     double impedance = work->z[a] + work->z[b];
     double roots = work->root_rho[a] + work->root_rho[b];

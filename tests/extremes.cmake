@@ -3,7 +3,7 @@ foreach(extreme scale place alternating poisson perturbed small spin)
   assay_test(extremes-${extreme} LABELS stability gate COMMAND $<TARGET_FILE:assay> extremes ${extreme})
 endforeach()
 # These close in on where runs break down, by runs that do.
-foreach(extreme stretch impact contrast)
+foreach(extreme stretch impact contrast slanted)
   assay_test(extremes-${extreme} LABELS stability gate UNTRAPPED "runs break down" COMMAND $<TARGET_FILE:assay> extremes
     ${extreme})
 endforeach()
@@ -13,7 +13,8 @@ assay_test(extremes-vibration LABELS stability gate slow COMMAND $<TARGET_FILE:a
 # angular momentum that may drift, a density that one row alone thinks other, a linear law, which takes a turn for strain,
 # and an integrator that gains energy where nothing is dissipated. For cfl see the mutants (mustfail.cmake).
 set(cli sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh)
-foreach(row "poisson;11;cfl=2" "stretch;16;cfl=3" "perturbed;4;cfl=2" "impact;7;cfl=2" "contrast;8;cfl=2"
+foreach(row "poisson;11;cfl=2" "stretch;16;cfl=3" "perturbed;7;cfl=2" "impact;7;cfl=2" "contrast;8;cfl=2"
+        "slanted;14;cfl=3"
         "small;25;speed=1e-3;--set;integrator=euler" "spin;3;angular_momentum=free" "scale;6;material.rho=1e3"
         "place;12;material.model=linear-elastic" "vibration;1;integrator=tvd-rk2;--set;cfl=0.1;no dissipation")
   list(POP_FRONT row extreme failing)
@@ -29,9 +30,12 @@ assay_test(extremes-notice-no-damping LABELS stability mustfail COMMAND ${cli} 1
   "48 of these fail" $<TARGET_FILE:assay> extremes alternating --set jst.kappa4=0 --set scheme=jst)
 assay_test(extremes-know-their-names LABELS unit COMMAND ${cli} 2
   "did you mean scale" $<TARGET_FILE:assay> extremes scales)
+# What single precision rounds is told from what a place or a turn changes.
+assay_test(extremes-place-single LABELS stability gate COMMAND $<TARGET_FILE:assay> extremes place --set precision=single)
 # No row is measured with words that are wrong, or that say something else than the row does; the report is there or not.
 foreach(row "unknown-key;unknown key;impact;--set;nonsense=1" "wrong-value;expected one of;impact;--set;scheme=xyz"
-        "no-row;no row is of anything;impact;4D" "driven-key;sets this key itself;perturbed;--set;perturb=0.1"
+        "no-row;no row is of anything;impact;4D" "single;moves particles as fast;stretch;--set;precision=single"
+        "driven-key;sets this key itself;perturbed;--set;perturb=0.1"
         "no-folder;test-out/none/extremes.json;impact;--json;test-out/none/extremes.json")
   list(POP_FRONT row name text)
   assay_test(extremes-refuse-${name} LABELS mustfail COMMAND ${cli} 2 ${text} $<TARGET_FILE:assay> extremes ${row})

@@ -343,6 +343,13 @@ assay_test(gate-bending-column-fine LABELS gate slow COMMAND $<TARGET_FILE:assay
   --out gates/bending-column-fine)
 assay_test(gate-bending-column-period LABELS gate slow COMMAND $<TARGET_FILE:assay> verify bending-column --levels 6
   --set V0=0.01 --set t_end=3.7 --out gates/bending-column-period)
+# Its period bent by little, held both ways: 2 % stiffer or softer do not pass.
+set(bent verify bending-column --levels 4 --set V0=0.01 --set t_end=2.6)
+assay_test(gate-bending-column-bent LABELS gate COMMAND $<TARGET_FILE:assay> ${bent} --out gates/bending-column-bent)
+foreach(E 16.66e6 17.34e6)
+  assay_test(gate-bending-column-sees-${E} LABELS gate mustfail slow COMMAND ${fails} "<= 0.005        [-]  FAIL"
+    $<TARGET_FILE:assay> ${bent} --set material.E=${E} --out gates/bending-column-${E})
+endforeach()
 assay_test(gate-bending-column-sees-folds LABELS gate mustfail slow COMMAND ${fails} "FAIL: a gate does not hold"
   $<TARGET_FILE:assay> verify bending-column --levels 8 --set stencil=sbp2 --out gates/bending-column-folds)
 

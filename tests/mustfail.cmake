@@ -141,6 +141,10 @@ assay_extreme_mutant(step-beyond-cfl 1 1 cfl "upwind sbp2 pF rk4, 1D")
 assay_extreme_mutant(interface-mean-slope 1 1 contrast "upwind sbp2")
 assay_extreme_mutant(interface-crossed 1 1 contrast "upwind sbp4")
 
+assay_unit_mutant(step-of-the-mean-spacing solver_perturbed "steps are short enough")
+assay_unit_mutant(ulsph-crossed solver_interfaces "kernels end there")
+assay_unit_mutant(ulsph-impedance-of-the-heavier solver_run_composite "the step where kernels cross")
+assay_unit_mutant(ulsph-step-without-meeting solver_run_composite "the step where kernels cross")
 assay_unit_mutant(slope-across-interface solver_run_composite "energy where materials meet")
 assay_unit_mutant(single-step-without-meeting solver_run_composite
                   "a step for materials that differ ten thousand times")

@@ -73,3 +73,12 @@ trade_refuses(wrong-error "there is no error called \"q\"" trade plastic-wave --
 trade_refuses(n-in-a-trade "say which by --levels" trade plastic-wave --set n=100)
 trade_refuses(study-without-error "says nothing without --error" run plastic-wave --study x.tsv)
 assay_test(trade-help LABELS unit COMMAND ${cli} 0 "usage: assay trade SCENE" ${assay} trade --help)
+
+# A body at rest has no error: a run that such a study picked repeats it, and nothing is divided by it.
+set(rest ${CMAKE_CURRENT_LIST_DIR}/scenes/whole-cube.lua --set U0=0 --set scheme=upwind --set precision=double)
+assay_test(trade-exact LABELS gate COMMAND ${assay} trade ${rest} --error p_abs --levels 4,6 --vary stencil=sbp2
+  --vary support=2 --vary integrator=tvd-rk2 --vary cfl=0.3 --budget 100 --out test-out/trade-exact)
+set_tests_properties(trade-exact PROPERTIES FIXTURES_SETUP exact)
+assay_test(trade-run-exact LABELS gate COMMAND ${cli} 0 "PASS: the error is what was asked for" ${assay} run ${rest}
+  --error p_abs=1e-3 --study test-out/trade-exact/trade.tsv --out test-out/trade-run-exact)
+set_tests_properties(trade-run-exact PROPERTIES FIXTURES_REQUIRED "program;exact")

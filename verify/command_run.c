@@ -24,6 +24,10 @@ static void print_facts(const struct solver_scene *scene, const struct solver_fa
                  facts->seconds, 1e9 * facts->seconds / particle_steps);
     (void)printf("  %.0f bytes per particle, %.0f of them fields of the scheme%s\n", facts->bytes_per_particle,
                  facts->state_bytes, verify_residual(residual, facts));
+    if (facts->shorter > 1.0) {
+        (void)printf("  steps %.3g times shorter than the spacing and the fastest wave have them, where %s\n",
+                     facts->shorter, scene->perturb > 0.0 ? "particles crowd" : "materials meet");
+    }
 }
 
 /* How well the cloud of a body of any shape fits it. */

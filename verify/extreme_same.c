@@ -15,6 +15,7 @@ struct outcome {
     size_t count, dim;
     double *value; /* [count][2 dim]: u / length, v / c */
     double steps;  /* right-hand sides evaluated */
+    bool single;   /* in single precision */
 };
 
 static void turn_back(double *vector, size_t dim, double angle)
@@ -38,6 +39,7 @@ static bool outcome_of(struct verify_trial *trial, double angle, struct outcome 
     outcome->count = out.cloud->count;
     outcome->dim = dim;
     outcome->steps = 4.0 * (double)out.step;
+    outcome->single = strcmp(trial->scene->precision, "single") == 0;
     outcome->value = calloc(outcome->count * 2 * dim + 1, sizeof *outcome->value);
     if (outcome->value == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "no memory for %zu particles", outcome->count);
@@ -84,12 +86,13 @@ struct variant {
     bool exact; /* scaled by powers of two: not a bit differs */
 };
 
-/* Every right-hand side rounds F, of order one, at least once; over the strain, and summed without any cancelling, that
- * is steps eps / strain. A distance from the origin leaves X with an error of eps times it, n times that in gradients.
- */
-static double tolerance_of(const struct variant *variant, double steps, int n)
+/* Every right-hand side rounds F, of order one, at least once, in the scene's precision; over the strain, and summed
+ * without any cancelling, that is steps eps / strain. A distance from the origin leaves X, which is in double precision
+ * in either, with an error of eps times it, n times that in gradients. */
+static double tolerance_of(const struct variant *variant, const struct outcome *plain, int n)
 {
-    return variant->exact ? 0.0 : (steps + 4.0 * n * variant->lengths) * DBL_EPSILON / strain;
+    double rounded = plain->steps * (plain->single ? (double)FLT_EPSILON : DBL_EPSILON);
+    return variant->exact ? 0.0 : (rounded + 4.0 * n * variant->lengths * DBL_EPSILON) / strain;
 }
 
 static bool compare(const struct verify_extremes *in, int dim, const char *evolved, const struct variant *variant,
@@ -114,7 +117,7 @@ static bool compare(const struct verify_extremes *in, int dim, const char *evolv
              outcome_of(&trial, variant[i].angle, &other, error);
         if (ok) {
             row.value = difference(&plain, &other);
-            row.most = tolerance_of(&variant[i], plain.steps, 4);
+            row.most = tolerance_of(&variant[i], &plain, 4);
             (void)snprintf(row.note, sizeof row.note, "at most %.2g: %s", row.most,
                            variant[i].exact ? "powers of two round nothing" : "round-off of every right-hand side");
             verify_extreme_told(in, &row);

@@ -33,6 +33,7 @@ struct verify_extreme {
     const char *name, *summary;
     bool (*run)(const struct verify_extremes *in, struct solver_error *error);
     const char *scene, *drives; /* what it runs, and the keys that it sets itself, with blanks between */
+    const char *in_double;      /* why it measures nothing in single precision; NULL: it does */
 };
 
 /* The table, ends with a NULL name. */
@@ -84,6 +85,7 @@ bool verify_extreme_stretch(const struct verify_extremes *in, struct solver_erro
 bool verify_extreme_perturbed(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_impact(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_contrast(const struct verify_extremes *in, struct solver_error *error);
+bool verify_extreme_slanted(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_small(const struct verify_extremes *in, struct solver_error *error);
 
 #endif

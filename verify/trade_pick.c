@@ -165,7 +165,9 @@ bool verify_pick_judge(struct verify_pick *pick, const struct solver_scene *scen
     }
     pick->gates = (struct verify_gates){.pass = true};
     add_gate(&pick->gates, name, "", value.value, pick->bound);
-    add_gate(&pick->gates, name, " off the study", fabs(value.value - said) / said, repeats_to);
+    /* an error of nothing has no size: what is asked for has */
+    add_gate(&pick->gates, name, " off the study", fabs(value.value - said) / (said > 0.0 ? said : pick->bound),
+             repeats_to);
     return true;
 }
 

@@ -2,7 +2,7 @@
 #include "solver/interfaces.h"
 #include "solver/run_internal.h"
 #include "solver/scheme_upwind.h"
-#include "tests/unit/runs.h"
+#include "tests/unit/ulsph_states.h"
 
 /* A composite body whose modulus is what `formula` says of X and Y. */
 static struct sample body(const char *formula, const char *settings)
@@ -84,11 +84,43 @@ static void test_stencil_ends(void)
     }
 }
 
+/* Nor do kernels reach across: however the stiff side moves, the soft one is not strained, but by the plane itself. */
+static void test_kernels_end(void)
+{
+    static const char *const settings[] = {"dim=1 n=16", "dim=2 n=16", "dim=3 n=14"};
+    static const char halves[] = "material = { model = 'linear-elastic', E = 3, nu = 0.3, rho = 2,\n"
+                                 "    at = function(X) return " HALF ", 0.3, 2 end }\n"
+                                 "scheme, support = 'ulsph', 2.4\n";
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+        struct sample sample = start(halves, "ulsph.xsph=0 %s", settings[i]);
+        const double *X = sample.run->cloud->X;
+        size_t dim = ulsph_dim(&sample);
+        struct ulsph_field v = ulsph_field(&sample, "v");
+        struct ulsph_field rho = ulsph_field(&sample, "rho");
+        double strained[3] = {0}; /* the soft side, the plane, the stiff side */
+        ulsph_move_randomly(&sample, 1.0);
+        for (size_t a = 0; a < sample.run->cloud->count; a++) {
+            for (size_t k = 0; k < v.width && X[a * dim] < 0.51; k++) {
+                v.value[a * v.width + k] = 0.0;
+            }
+        }
+        ulsph_evaluate(&sample);
+        for (size_t a = 0; a < sample.run->cloud->count; a++) {
+            size_t where = X[a * dim] < 0.49 ? 0 : X[a * dim] < 0.51 ? 1 : 2;
+            strained[where] = fmax(strained[where], fabs(rho.rate[a]));
+        }
+        CU_ASSERT_EQUAL(strained[0], 0.0);
+        CU_ASSERT(strained[1] > 1.0 && strained[2] > 1.0);
+        finish(&sample);
+    }
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
         {"planes of particles that stand for both sides are found", test_found},
         {"stencils along lines end there", test_stencil_ends},
+        {"kernels end there", test_kernels_end},
     };
     return unit_main("interfaces", tests, sizeof tests / sizeof *tests);
 }

@@ -55,6 +55,11 @@ static void bad_keys(void)
         {"E = 10", "E = -10", 0, "material.E: expected number > 0 [Pa], got -10"},
         {"rho = 2", "rho = 0", 0, "material.rho: expected number > 0 [kg/m^3], got 0"},
         {"nu = 0.3", "nu = 0.7", 0, ".lua: material.nu: expected number in (-1, 0.5], got 0.7"},
+        {"E = 10", "E = 1e300", 0, "material.E: products of moduli, densities and lengths would leave the range of"},
+        {"E = 10", "E = 1e-51", 0, "expected number in [1e-50, 1e+50] [Pa], got 1e-51"},
+        {"rho = 2", "rho = 1e51", 0,
+         "material.rho: products of moduli, densities and lengths would leave the range of"},
+        {0, "reference_length = 1e25", 0, "reference_length: products of moduli, densities and lengths would leave"},
         {"nu = 0.3", "nu = -1", 0, "material.nu: expected number in (-1, 0.5], got -1"},
         {"nu = 0.3", "nu = 0.5", 0,
          "material.nu: 0.5 is incompressible, and the pressure is then an unknown of its own; take "

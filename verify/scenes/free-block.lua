@@ -4,9 +4,10 @@ title = "Free block"
 source = "of this program"
 
 -- angle: the block is turned by it about the z axis from the start, rad; random: share of velocities without any order;
--- held: all faces are clamped; flight: velocity of the whole along all axes, over c; impact: the same against a wall; alternate: share of velocities that alternate from particle to particle; turn: angular velocity over c / length
+-- held: all faces are clamped; flight: velocity of the whole along all axes, over c; impact: the same against a wall; alternate: share of velocities that alternate from particle to particle; turn: angular velocity over c / length;
+-- jump: stiffness and density of what lies beyond a plane that is slanted against the lattice, over those before it
 parameters = { d = 2, length = 1, modulus = 1e7, density = 1e3, origin = 0, angle = 0, stretch = 1,
-               speed = 1e-3, random = 0, alternate = 0, turn = 0, held = 0, flight = 0, impact = 0, thickness = 1, periods = 1 }
+               speed = 1e-3, random = 0, alternate = 0, turn = 0, held = 0, flight = 0, impact = 0, thickness = 1, periods = 1, jump = 1 }
 
 -- As many numbers as there are dimensions.
 local function first(a, b, c)
@@ -20,7 +21,12 @@ reference_length = length -- m
 n = 4
 levels = {4, 8}
 
-material = { model = "neo-hookean", E = modulus, nu = 0.3, rho = density } -- Pa, -, kg/m^3
+local function slanted(X, Y, Z) -- a plane through the body, with steps along the lattice
+    local y, z = d > 1 and Y - origin or 0, d > 2 and Z - origin or 0
+    local times = X - origin - 0.3 * y - 0.1 * z < 0.35 * length and 1 or jump
+    return modulus * times, 0.3, density * times
+end
+material = { model = "neo-hookean", E = modulus, nu = 0.3, rho = density, at = jump ~= 1 and slanted or nil } -- Pa, kg/m^3
 local c = math.sqrt(modulus / density) -- m/s
 t_end = periods * length / c -- s
 

@@ -1,0 +1,86 @@
+/* Clouds whose particles were moved at random, as far as scenes allow: their eigenvalues are those of a body that loses
+ * energy, and steps are as short as these ask for. */
+#include "solver/run.h"
+#include "solver/spectrum.h"
+#include "tests/unit/runs.h"
+
+#include <stdlib.h>
+
+static const char at_rest[] = "material = { model = 'linear-elastic', E = 3, nu = 0.3, rho = 2 }\n";
+
+/* The largest growth rate times the step, and the largest stable step of RK4 over the scene's at CFL 0.9. */
+struct margins {
+    double growth, step;
+};
+
+static struct margins margins_of(const char *settings, double perturb, int seed)
+{
+    struct sample sample =
+        start(at_rest, "threads=1 integrator=rk4 cfl=0.9 stencil=closed support=2 perturb=%g seed=%d %s", perturb, seed,
+              settings);
+    double complex *eigenvalue = NULL;
+    size_t count;
+    double step = solver_run_facts(sample.run).step;
+    struct margins margins = {0.0, 0.0};
+    CU_ASSERT_FATAL(solver_run_spectrum(sample.run, &eigenvalue, &count, &sample.error));
+    for (size_t i = 0; i < count; i++) {
+        margins.growth = fmax(margins.growth, creal(eigenvalue[i]) * step);
+    }
+    margins.step = solver_stable_step(solver_integrator_find("rk4"), eigenvalue, count, 1e-6) / step;
+    free(eigenvalue);
+    finish(&sample);
+    return margins;
+}
+
+static void test_steps(void)
+{
+    static const char *const rows[] = {
+        "dim=2 n=5 evolved=pF reconstruction=least-squares",
+        "dim=2 n=5 evolved=pFJ reconstruction=least-squares",
+        "dim=2 n=5 evolved=pF reconstruction=none",
+        "dim=3 n=2 evolved=pF reconstruction=least-squares",
+        "dim=2 n=5 evolved=pF scheme=jst reconstruction=least-squares",
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        for (int seed = i == 3 ? 4 : 3; seed <= 4; seed++) {
+            for (double perturb = 0.15; perturb < 0.46; perturb += 0.15) {
+                struct margins margins = margins_of(rows[i], perturb, seed);
+                expect_below(rows[i], margins.growth, 1e-6);
+                expect_below("scene's step over the largest stable one", 1.0 / margins.step, 1.0);
+            }
+        }
+    }
+}
+
+/* Slopes of closed pair vectors feed energy in beyond that: {p,F} with them is refused, and JST takes none. */
+static void test_slopes(void)
+{
+    static const char words[] = "stencil=closed support=2 evolved=pF";
+    expect_refused(at_rest, "expected least-squares or none", "dim=2 n=8 perturb=0.2 %s", words);
+    expect_refused(at_rest, "expected least-squares or none", "dim=3 n=3 perturb=0.45 %s", words);
+    struct sample allowed = start(at_rest, "dim=2 n=8 perturb=0.15 %s", words);
+    finish(&allowed);
+    struct sample jst = start(at_rest, "dim=2 n=8 perturb=0.45 scheme=jst %s", words);
+    finish(&jst);
+}
+
+/* A lattice's steps are its spacing's. */
+static void test_lattices(void)
+{
+    static const char *const rows[] = {"dim=1 n=9", "dim=2 n=5", "dim=3 n=4", "dim=2 n=5 scheme=jst"};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct sample sample = start(at_rest, "stencil=closed support=2 %s", rows[i]);
+        CU_ASSERT_EQUAL(solver_run_facts(sample.run).shorter, 1.0);
+        finish(&sample);
+    }
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"steps are short enough", test_steps},
+        {"slopes of the stencil are refused", test_slopes},
+        {"steps of lattices", test_lattices},
+    };
+    return unit_main("perturbed", tests, sizeof tests / sizeof *tests);
+}
