@@ -35,8 +35,8 @@ bool solver_grading_places(const struct solver_grading *grading, int axis, doubl
     }
     if (points < fewest + 1) {
         return solver_fail(error, SOLVER_BAD_INPUT,
-                           "grading.%c: there are %zu spacings along the edge, and at least %zu are needed to differ; "
-                           "choose a larger n",
+                           "grading.%c: an edge of %zu of the spacings is too short for them to differ; expected %zu or "
+                           "more: choose a larger n",
                            "XYZ"[axis], count, fewest);
     }
     double least = 1.0;

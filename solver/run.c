@@ -268,6 +268,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .pairs = geometry.pairs,
         .steps = run->step,
         .spacing = run->cloud->spacing,
+        .finest = solver_cloud_finest(run->cloud),
         .step = run->scheme->largest_step(run->system),
         .mass = mass,
         .setup_seconds = run->setup_seconds,

@@ -71,7 +71,8 @@ struct solver_history {
 /* What a run is made of, for reports. */
 struct solver_facts {
     size_t particles, pairs, steps;
-    double spacing;            /* [m] */
+    double spacing;            /* [m]; of a graded lattice the mean */
+    double finest;             /* [m] the smallest */
     double step;               /* [s] the longest that the CFL number allows now */
     double mass;               /* [kg]; per unit thickness in 2D, per unit area in 1D */
     double setup_seconds;      /* cloud and stencil */
