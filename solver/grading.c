@@ -34,10 +34,11 @@ bool solver_grading_places(const struct solver_grading *grading, int axis, doubl
                            "XYZ"[axis], grading -> ratio);
     }
     if (points < fewest + 1) {
-        return solver_fail(error, SOLVER_BAD_INPUT,
-                           "grading.%c: an edge of %zu of the spacings is too short for them to differ; expected %zu or "
-                           "more: choose a larger n",
-                           "XYZ"[axis], count, fewest);
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "grading.%c: an edge of %zu of the spacings is too short for them to differ; expected %zu or "
+            "more: choose a larger n",
+            "XYZ"[axis], count, fewest);
     }
     double least = 1.0;
     double most = 0.0;

@@ -1,6 +1,7 @@
-/* Spacings that change along an axis of a box, as bias factors of meshers have it. From one end to the other each is the
- * same multiple of the last; fine at both ends or in the middle, their logarithm follows sin^2 or cos^2, so that they
- * change smoothly there too. Places are a smooth function of their number, which is what keeps orders of accuracy. */
+/* Spacings that change along an axis of a box, as bias factors of meshers have it. From one end to the other each is
+ * the same multiple of the last; fine at both ends or in the middle, their logarithm follows sin^2 or cos^2, so that
+ * they change smoothly there too. Places are a smooth function of their number, which is what keeps orders of accuracy.
+ */
 #ifndef SOLVER_GRADING_H
 #define SOLVER_GRADING_H
 

@@ -246,7 +246,7 @@ struct solver_scene {
     int levels[SOLVER_LEVELS]; /* values of n for a study, increasing */
     size_t level_count;
     struct solver_grading grading[3]; /* along each axis of a box; n spacings are then means */
-    double perturb; /* random shift of interior particles, as a fraction of the spacing, [0, 0.45] */
+    double perturb;                   /* random shift of interior particles, as a fraction of the spacing, [0, 0.45] */
     uint64_t seed;
 
     char material_model[SOLVER_NAME];

@@ -133,8 +133,8 @@ static void read_bodies(lua_State *L, struct solver_scene *scene)
 
 /* --- graded lattices --- */
 
-/* Lines of a box alone have spacings that change, and stencils along lines alone follow them: where pairs are found by a
- * radius there is one for all. */
+/* Lines of a box alone have spacings that change, and stencils along lines alone follow them: where pairs are found by
+ * a radius there is one for all. */
 static void check_grading(lua_State *L, const struct solver_scene *scene)
 {
     const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);

@@ -164,10 +164,11 @@ bool solver_stencil_create(const struct solver_stencil_builder *builder, const s
             builder->name);
     }
     if (!builder->lattice_only && solver_cloud_graded(cloud)) {
-        return solver_fail(error, SOLVER_BAD_INPUT,
-                           "stencil: %s has one support for all particles, and spacings of this lattice change; expected "
-                           "sbp2 or sbp4",
-                           builder->name);
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "stencil: %s has one support for all particles, and spacings of this lattice change; expected "
+            "sbp2 or sbp4",
+            builder->name);
     }
     if (!solver_alloc((void **)&stencil, 1, sizeof *stencil, "stencil", error)) {
         return false;

@@ -1,9 +1,9 @@
 /* Summation-by-parts operators along the lines of a lattice: H D = Q, Q + Q^T = diag(-1, 0, ..., 0, 1), H diagonal.
  * As pair vectors C_ab = 2 Q_ab times the quadrature weights of the other axes.
  *
- * On a graded lattice the weights are w = Q X, those that make D X = 1. They sum to the length and have its first moment,
- * since 1^T Q = (-1, 0, ..., 0, 1) and X^T Q X = [X^2]/2; what follows from Q alone, antisymmetry and closure, stays. So D
- * is the operator in a coordinate whose steps are even, d/dX = (dX/di)^-1 d/di, both by the same rows.
+ * On a graded lattice the weights are w = Q X, those that make D X = 1. They sum to the length and have its first
+ * moment, since 1^T Q = (-1, 0, ..., 0, 1) and X^T Q X = [X^2]/2; what follows from Q alone, antisymmetry and closure,
+ * stays. So D is the operator in a coordinate whose steps are even, d/dX = (dX/di)^-1 d/di, both by the same rows.
  *
  * The face measure of the dissipation is that of the faces between nearest neighbours, not max(0, N . C_ab): the 4-2
  * operator's C_ab are no face areas (4/3 and -1/6 of one), and its long pairs near the boundary would smear. */
@@ -207,8 +207,7 @@ static double face(const struct solver_cloud *cloud, const struct line_operator 
 {
     struct piece piece = piece_at(cloud, line, axis, i);
     uint32_t k = i - piece.first;
-    return line->face *
-           fmin(1.0, fmin(room(cloud, line, axis, piece, k), room(cloud, line, axis, piece, k + 1)));
+    return line->face * fmin(1.0, fmin(room(cloud, line, axis, piece, k), room(cloud, line, axis, piece, k + 1)));
 }
 
 /* Quadrature weights [m] of the lines along each axis, [points] each after the other. */
@@ -229,14 +228,14 @@ static bool check_widths(const struct solver_cloud *cloud, const struct line_ope
     const double *X = cloud->plane[axis];
     for (uint32_t i = 0; X != NULL && i < cloud->points[axis]; i++) {
         struct piece piece = piece_at(cloud, line, axis, i);
-        double ratio =
-            room(cloud, line, axis, piece, i - piece.first) / even_room(line, piece, i - piece.first);
+        double ratio = room(cloud, line, axis, piece, i - piece.first) / even_room(line, piece, i - piece.first);
         if (!(ratio >= narrowest && ratio <= widest)) {
-            return solver_fail(error, SOLVER_BAD_INPUT,
-                               "grading.%c: spacings change too fast for stencil %s, whose weight of the point at %g m is "
-                               "%.2g times that on an even line; expected %g to %g: choose a larger n, a smaller ratio, or "
-                               "stencil sbp2",
-                               "XYZ"[axis], line->name, X[i], ratio, narrowest, widest);
+            return solver_fail(
+                error, SOLVER_BAD_INPUT,
+                "grading.%c: spacings change too fast for stencil %s, whose weight of the point at %g m is "
+                "%.2g times that on an even line; expected %g to %g: choose a larger n, a smaller ratio, or "
+                "stencil sbp2",
+                "XYZ"[axis], line -> name, X[i], ratio, narrowest, widest);
         }
         *finest = fmin(*finest, of[i] / weight(cloud, line, axis, i));
     }

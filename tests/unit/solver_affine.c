@@ -11,7 +11,7 @@
 static const char *const evolved_name[] = {"pF", "pFJ", "pFHJ"};
 static const double cfl = 0.3;
 static const double quarter = 0.25; /* of that time for spacings of which the smallest is a quarter of the mean */
-enum { STEPS = 4 }; /* at rest; a stretched body is stiffer, or softer */
+enum { STEPS = 4 };                 /* at rest; a stretched body is stiffer, or softer */
 
 /* What stands in the scene beside motion and faces. */
 struct setting {
@@ -188,7 +188,11 @@ static void hold_to_it(const struct affine_case *of, struct setting setting, str
     if (!holds) {
         printf("\n    %s, %s, %s, %s, %s, %zuD, n = %d%s: %s: off by %.2e, round-off %.2e", setting.scheme,
                setting.stencil, setting.material, evolved_name[setting.evolved], setting.integrator, setting.dim,
-               setting.n, setting.perturbed ? ", perturbed" : setting.graded ? ", graded" : "", of->name, found.error, found.bound);
+               setting.n,
+               setting.perturbed ? ", perturbed"
+               : setting.graded  ? ", graded"
+                                 : "",
+               of->name, found.error, found.bound);
     }
     CU_ASSERT(holds);
     tally->runs++;

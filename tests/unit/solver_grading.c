@@ -117,7 +117,8 @@ static void stencils_keep_their_promises(void)
             CU_ASSERT(found.volume <= exact && found.moment <= exact);
             CU_ASSERT(found.area <= exact && found.area_moment <= exact);
             CU_ASSERT(found.inner[1] <= exact && found.outer[1] <= exact);
-            CU_ASSERT(found.inner[2] > 1e-5); /* no polynomial in X of a higher degree is one in the numbers of planes */
+            CU_ASSERT(found.inner[2] >
+                      1e-5); /* no polynomial in X of a higher degree is one in the numbers of planes */
             solver_stencil_free(stencil);
             solver_cloud_free(cloud);
         }
@@ -286,7 +287,8 @@ static void stencils_are_refused(void)
         box.grading[0] = grading_of(1e6, SOLVER_FINE_LOWER); /* neighbouring spacings differ four times */
         struct solver_cloud *cloud = clouds_make(&box);
         bool made = solver_stencil_create(builder, cloud, 3.0, &stencil, &error);
-        CU_ASSERT(made == (strcmp(builder->name, "sbp2") == 0)); /* its weights are half of the gaps, whatever they are */
+        CU_ASSERT(made ==
+                  (strcmp(builder->name, "sbp2") == 0)); /* its weights are half of the gaps, whatever they are */
         CU_ASSERT(made || error.code == SOLVER_BAD_INPUT);
         CU_ASSERT(made || strstr(error.text, builder->lattice_only ? "change too fast" : "one support") != NULL);
         solver_stencil_free(stencil);

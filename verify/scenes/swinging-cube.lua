@@ -65,7 +65,8 @@ published = scheme == "jst" and {
 -- the orders of p and P are 2.1 and 2.0 with sbp2, {p,F}, and 3.3 and 3.9 with sbp4.
 local function graded(scheme, stencil, integrator, cfl)
     return { ["grading.X"] = 10, ["grading.Y"] = 1, ["grading.Z"] = 1, ["grading.fine_X"] = "lower",
-             scheme = scheme, ["jst.kappa4"] = 1 / 64, stencil = stencil, integrator = integrator, cfl = cfl }
+             ["incompressible.solver"] = "none", scheme = scheme, ["jst.kappa4"] = 1 / 64, stencil = stencil,
+             integrator = integrator, cfl = cfl }
 end
 local even = grading.X == 1 and grading.Y == 1 and grading.Z == 1
 local graded_gates = {
