@@ -272,6 +272,8 @@ static void test_printed(void)
 static void test_fastest(void)
 {
     static const char *const bodies[] = {"dim=1 n=12 stencil=sbp2",
+                                         "dim=1 n=12 stencil=sbp2 grading.X=10",
+                                         "dim=2 n=12 stencil=sbp4 grading.X=10 grading.Y=3 grading.fine_Y=both",
                                          "dim=2 n=12 stencil=sbp2",
                                          "dim=3 n=6 stencil=sbp2",
                                          "dim=2 n=12 stencil=sbp4",
@@ -295,7 +297,7 @@ static void test_fastest(void)
             }
         }
         double dim = (double)ulsph_dim(&sample);
-        double share = decay * sample.run->cloud->spacing / c / (16.0 * dim * dim);
+        double share = decay * solver_cloud_finest(sample.run->cloud) / c / (16.0 * dim * dim);
         printf("\n    %s: fastest decay %.3f of 16 dim^2 kappa4 c / h", bodies[i], share);
         CU_ASSERT(share > 0.2 && share < 1.1);
         finish(&sample);

@@ -104,6 +104,18 @@ static void bad_keys(void)
         {0, "cfl = 10.1", 0, "cfl: expected number in (0, 10], got 10.1"},
         {0, "support = 0.9", 0, "support: expected number in [1, 4], got 0.9"},
         {0, "perturb = 0.46", 0, "perturb: expected number in [0, 0.45], got 0.46"},
+        {0, "threads = -1", 0, "threads: expected whole number in [0, 1024], got -1"},
+        {0, "seed = -1", 0, "seed: expected whole number >= 0, got -1"},
+        {0, "body_force = 9.81", 0, "body_force: expected function(X, Y, Z, t) returning dim numbers, got 9.81"},
+        {0, "x = 1", 0, ".lua:8: x: unknown key"},
+    };
+    CHECK_ALL(bad);
+}
+
+static void bad_gradings(void)
+{
+    unit_untrapped();
+    static const struct bad bad[] = {
         {0, "grading = { X = 0.5 }", 0, "grading.X: expected number in [1, 1e6], got 0.5"},
         {0, "grading = { X = 0/0 }", 0, "grading.X: expected number in [1, 1e6], got NaN"},
         {0, "grading = { X = 1e7 }", 0, "grading.X: expected number in [1, 1e6], got 10000000"},
@@ -117,10 +129,6 @@ static void bad_keys(void)
          "grading.Y: the kernel of scheme = \"ulsph\" has one support for all particles; expected upwind or jst"},
         {0, "grading = { Y = 2 } lattice = 'centres'", 0, "grading.Y: expected lattice = \"nodes\" with it"},
         {0, "grading = { Y = 2 } perturb = 0.1", 0, "grading.Y: expected perturb = 0 with it, got 0.1"},
-        {0, "threads = -1", 0, "threads: expected whole number in [0, 1024], got -1"},
-        {0, "seed = -1", 0, "seed: expected whole number >= 0, got -1"},
-        {0, "body_force = 9.81", 0, "body_force: expected function(X, Y, Z, t) returning dim numbers, got 9.81"},
-        {0, "x = 1", 0, ".lua:8: x: unknown key"},
     };
     CHECK_ALL(bad);
 }
@@ -440,6 +448,7 @@ int main(void)
 {
     static const struct unit_test tests[] = {
         {"bad keys", bad_keys},
+        {"bad gradings", bad_gradings},
         {"bad resolution", bad_resolution},
         {"bad parts", bad_parts},
         {"bad lists", bad_lists},
