@@ -8,7 +8,7 @@ get_filename_component(assay_bin ${CMAKE_INSTALL_BINDIR} NAME)
 file(RELATIVE_PATH assay_share ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/assay)
 
 # Public headers: what a room is called by, and what those need. verify/ is the program, and no library.
-set(public_solver error cost hardening shape cloud scene run record checkpoint)
+set(public_solver error cost hardening shape grading cloud scene run record checkpoint)
 set(public_oracles oracle)
 set(public_render render)
 set(public_golden golden)

@@ -4,6 +4,7 @@
 #include "solver/memory.h"
 #include "solver/symmetry.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -115,6 +116,22 @@ bool cloud_order(struct solver_cloud *cloud, uint32_t (*place)[3], struct solver
     return ok;
 }
 
+bool solver_cloud_graded(const struct solver_cloud *cloud)
+{
+    return cloud->plane[0] != NULL || cloud->plane[1] != NULL || cloud->plane[2] != NULL;
+}
+
+double solver_cloud_finest(const struct solver_cloud *cloud)
+{
+    double finest = cloud->spacing;
+    for (int axis = 0; axis < 3; axis++) {
+        for (uint32_t i = 0; cloud->plane[axis] != NULL && i + 1 < cloud->points[axis]; i++) {
+            finest = fmin(finest, cloud->plane[axis][i + 1] - cloud->plane[axis][i]);
+        }
+    }
+    return finest;
+}
+
 void solver_cloud_arrays(const struct solver_cloud *cloud, struct solver_cost_arrays *arrays)
 {
     static const char group[] = "cloud";
@@ -125,6 +142,10 @@ void solver_cloud_arrays(const struct solver_cloud *cloud, struct solver_cost_ar
     solver_cost_array(arrays, group, "tags", cloud->tags, count, sizeof *cloud->tags);
     solver_cost_array(arrays, group, "bodies", cloud->body, count, sizeof *cloud->body);
     solver_cost_array(arrays, group, "lattice sites", cloud->site, count * dim, sizeof *cloud->site);
+    for (int axis = 0; axis < 3; axis++) {
+        solver_cost_array(arrays, group, "planes of a graded lattice", cloud->plane[axis], cloud->points[axis],
+                          sizeof *cloud->plane[axis]);
+    }
     solver_cost_array(arrays, group, "interfaces", cloud->interface,
                       (size_t)cloud->points[0] + cloud->points[1] + cloud->points[2], sizeof *cloud->interface);
     solver_cost_array(arrays, group, "mirror images", cloud->image, cloud->wall_count, sizeof *cloud->image);
@@ -145,6 +166,9 @@ void solver_cloud_free(struct solver_cloud *cloud)
     free(cloud->tags);
     free(cloud->body);
     free(cloud->site);
+    for (int axis = 0; axis < 3; axis++) {
+        free(cloud->plane[axis]);
+    }
     free(cloud->interface);
     free(cloud->face_point);
     free(cloud->image);

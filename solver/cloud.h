@@ -4,6 +4,7 @@
 
 #include "solver/cost.h"
 #include "solver/error.h"
+#include "solver/grading.h"
 #include "solver/shape.h"
 
 #include <stdbool.h>
@@ -44,7 +45,7 @@ struct solver_cloud {
     int dim;
     size_t count;            /* particles, ordered along a space-filling curve; those of walls come after the others */
     size_t wall_count;       /* of walls: outside the body, with volumes of their own, only there to hold or move it */
-    double spacing;          /* [m] */
+    double spacing;          /* [m]; of a graded lattice the mean */
     double *X;               /* [count][dim] [m] */
     double *V;               /* [count] [m^dim]; sums to the body's volume, first moments exact */
     uint32_t *tags;          /* [count]; bit f of each of the above: lies on face f, next to it, or beyond it */
@@ -53,6 +54,7 @@ struct solver_cloud {
     struct solver_face_point *face_point; /* [face_point_count] */
     uint32_t points[3];                   /* particles along each axis of the lattice, with walls; 0: no lattice */
     uint32_t *site;                       /* [count][dim] lattice indices of each particle; NULL: no lattice */
+    double *plane[3];   /* [points] places of the lattice's planes along each axis [m]; NULL where they are even */
     uint8_t *interface; /* [sum of points] whether materials meet on a plane of the lattice, along each axis after the
                            other (interfaces.h); NULL: nowhere, or nobody has looked */
     uint32_t *image;    /* [wall_count] particle of the body of which each particle of a wall is the mirror image;
@@ -67,9 +69,10 @@ struct solver_cloud {
 
 struct solver_box {
     int dim;
-    double lower[3], upper[3]; /* [m] */
-    double spacing;            /* [m]; every edge must be a whole number of spacings */
-    double perturb;            /* particles not on a face move by up to this fraction of the spacing along each axis */
+    double lower[3], upper[3];        /* [m] */
+    double spacing;                   /* [m]; every edge must be a whole number of spacings */
+    struct solver_grading grading[3]; /* of the spacings along each axis; then `spacing` is their mean */
+    double perturb; /* particles not on a face move by up to this fraction of the spacing along each axis */
     uint64_t seed;
     bool centred;     /* particles in the centres of cells, none on a face */
     uint32_t wall[6]; /* layers of particles beyond each face; only where particles are in the centres of cells */
@@ -79,7 +82,8 @@ struct solver_box {
 /* A box lattice with particles on its boundary: volumes and areas are those of the trapezoidal rule. Or with particles
  * in the centres of cells: each has its cell's volume, and there are no face points; walls continue the lattice. Where
  * the lattice is perturbed the volumes are corrected so that zeroth and first moments stay exact (NUMERICS: the
- * constraints of a closed stencil are compatible only then). */
+ * constraints of a closed stencil are compatible only then). A graded lattice has particles on its boundary, and none
+ * is moved. */
 bool solver_cloud_box(const struct solver_box *box, struct solver_cloud **cloud, struct solver_error *error);
 /* Several bodies, in the order of their shapes; all with particles in the centres of cells and without walls, ordered
  * together along one curve. SOLVER_BAD_INPUT where a shape is not a whole number of spacings thick, or two overlap. */
@@ -96,6 +100,10 @@ static inline size_t solver_cloud_driven(const struct solver_cloud *cloud)
 {
     return cloud->symmetry != NULL ? cloud->count - cloud->wall_count : cloud->count;
 }
+/* The smallest distance of neighbours on a lattice, or the spacing [m]. */
+double solver_cloud_finest(const struct solver_cloud *cloud);
+/* Whether spacings change along some axis. */
+bool solver_cloud_graded(const struct solver_cloud *cloud);
 void solver_cloud_arrays(const struct solver_cloud *cloud, struct solver_cost_arrays *arrays);
 void solver_cloud_free(struct solver_cloud *cloud);
 

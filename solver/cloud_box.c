@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Along each axis. Without walls the body has all points. */
 struct lattice {
@@ -41,6 +42,14 @@ static bool check_box(const struct solver_box *box, struct solver_error *error)
         return solver_fail(error, SOLVER_BAD_INPUT,
                            "perturb = %g; expected a number from 0 to less than 0.5, so that neighbours cannot meet",
                            box->perturb);
+    }
+    for (int axis = 0; axis < box->dim; axis++) {
+        if (!solver_grading_is_even(&box->grading[axis]) && (box->centred || box->perturb > 0.0)) {
+            return solver_fail(error, SOLVER_BAD_INPUT,
+                               "grading.%c: a graded lattice has particles on its faces and none moved at random; "
+                               "expected lattice = \"nodes\" and perturb = 0",
+                               "XYZ"[axis]);
+        }
     }
     for (int face = 0; face < 6; face++) {
         if (box->wall[face] > 0 && (!box->centred || face >= 2 * box->dim)) {
@@ -116,6 +125,17 @@ static double end_weight(uint32_t index, uint32_t points)
     return index == 0 || index + 1 == points ? 0.5 : 1.0;
 }
 
+/* Length [m] of what a particle stands for along one axis: its cell, or half of the gaps to its neighbours. */
+static double extent(const struct solver_cloud *cloud, bool centred, size_t axis, uint32_t index)
+{
+    const double *plane = cloud->plane[axis];
+    uint32_t last = cloud->points[axis] - 1;
+    if (plane != NULL) {
+        return 0.5 * (plane[index < last ? index + 1 : last] - plane[index > 0 ? index - 1 : 0]);
+    }
+    return cloud->spacing * (centred ? 1.0 : end_weight(index, last + 1));
+}
+
 /* Tags of a site along one axis. */
 static uint32_t tags_along(const struct lattice *lattice, bool centred, uint32_t axis, uint32_t index)
 {
@@ -135,8 +155,10 @@ static void place(struct solver_cloud *cloud, const struct solver_box *box, cons
     for (uint32_t axis = 0; axis < 3 && axis < dim; axis++) {
         double cells = (double)lattice->cells[axis];
         double along = ((double)site[axis] - (double)lattice->first[axis] + (box->centred ? 0.5 : 0.0)) / cells;
-        cloud->X[a * dim + axis] = box->lower[axis] * (1.0 - along) + box->upper[axis] * along;
-        cloud->V[a] *= box->spacing * (box->centred ? 1.0 : end_weight(site[axis], lattice->points[axis]));
+        bool even = cloud->plane[axis] == NULL;
+        cloud->X[a * dim + axis] =
+            even ? box->lower[axis] * (1.0 - along) + box->upper[axis] * along : cloud->plane[axis][site[axis]];
+        cloud->V[a] *= extent(cloud, box->centred, axis, site[axis]);
         cloud->tags[a] |= tags_along(lattice, box->centred, axis, site[axis]);
     }
     bool on_face = !box->centred && cloud->tags[a] != 0;
@@ -195,7 +217,7 @@ static bool list_face_points(struct solver_cloud *cloud, struct solver_error *er
             double area = 1.0;
             for (size_t axis = 0; axis < dim; axis++) {
                 if (axis != face / 2) {
-                    area *= cloud->spacing * end_weight(cloud->site[a * dim + axis], cloud->points[axis]);
+                    area *= extent(cloud, false, axis, cloud->site[a * dim + axis]);
                 }
             }
             point->area[face / 2] = face % 2 == 0 ? -area : area;
@@ -247,6 +269,22 @@ static bool correct_moments(struct solver_cloud *cloud, const struct solver_box 
     return cloud_fit_volumes(cloud, volume, centre, error);
 }
 
+/* Places of the planes along axes that are graded. */
+static bool grade(struct solver_cloud *cloud, const struct solver_box *box, struct solver_error *error)
+{
+    for (int axis = 0; axis < box->dim; axis++) {
+        size_t points = cloud->points[axis];
+        double **plane = &cloud->plane[axis];
+        if (!solver_grading_is_even(&box->grading[axis]) &&
+            !(solver_alloc((void **)plane, points, sizeof **plane, "planes of a graded lattice", error) &&
+              solver_grading_places(&box->grading[axis], axis, box->lower[axis], box->upper[axis], points, *plane,
+                                    error))) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* Fills and orders a cloud that has its arrays; keeps the sites. */
 static bool make(struct solver_cloud *cloud, const struct solver_box *box, uint32_t (*site)[3],
                  struct solver_error *error)
@@ -257,6 +295,10 @@ static bool make(struct solver_cloud *cloud, const struct solver_box *box, uint3
     if (!lay_out(box, &lattice, &size, error)) {
         return false;
     }
+    memcpy(cloud->points, lattice.points, sizeof cloud->points);
+    if (!grade(cloud, box, error)) {
+        return false;
+    }
     cloud_box_fill(cloud, box, (struct cloud_size){0});
     for (size_t a = 0; a < cloud->count; a++) {
         site_of(&lattice, a, site[a]);
@@ -264,9 +306,8 @@ static bool make(struct solver_cloud *cloud, const struct solver_box *box, uint3
     if (!cloud_order(cloud, site, error)) {
         return false;
     }
-    for (size_t axis = 0; axis < 3; axis++) {
-        cloud->points[axis] = lattice.points[axis];
-        for (size_t a = 0; axis < dim && a < cloud->count; a++) {
+    for (size_t axis = 0; axis < dim && axis < 3; axis++) {
+        for (size_t a = 0; a < cloud->count; a++) {
             cloud->site[a * dim + axis] = site[a][axis];
         }
     }

@@ -17,6 +17,10 @@
  * of one or two particles. D2 exchanges momentum in pairs too, and its energy falls pair by pair; it lets nothing
  * through the boundary, so a linear field is not free of it there.
  *
+ * On a graded lattice dx is the length |X_ab| of each pair: l_ab has A_ab / |X_ab| times (|X_ab| / dx)^(3/2), and so
+ * has its adjoint, k_ab that times |X_ab| / dx. What is said above of momentum, energy and linear fields holds
+ * unchanged.
+ *
  * Where kappa4 depends on plastic strain (eq. 4.2) each particle has its own: it is a factor of the Laplacian that the
  * particle passes on, kappa4_b l_ba Lap f_b - kappa4_a l_ab Lap f_a. Pairs still exchange momentum, and the energy
  * falls, by c dx^3 sum kappa4 V |Lap f|^2; with one value per pair, a mean of both, only the former would be sure. */

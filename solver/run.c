@@ -277,6 +277,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .pairs = geometry.pairs,
         .steps = run->step,
         .spacing = run->cloud->spacing,
+        .finest = solver_cloud_finest(run->cloud),
         .step = run->scheme->largest_step(run->system),
         .shorter = geometry.shorter,
         .mass = mass,

@@ -71,7 +71,8 @@ struct solver_history {
 /* What a run is made of, for reports. */
 struct solver_facts {
     size_t particles, pairs, steps;
-    double spacing;            /* [m] */
+    double spacing;            /* [m]; of a graded lattice the mean */
+    double finest;             /* [m] the smallest */
     double step;               /* [s] the longest that the CFL number allows now */
     double shorter;            /* how many times shorter it is than the spacing and the fastest wave have it, as
                                   materials meet or particles crowd; 1: not */

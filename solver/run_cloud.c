@@ -23,6 +23,7 @@ static bool make_box(const struct solver_scene *scene, double spacing, struct so
                              .mirrored = scene->wall_motion == SOLVER_WALL_MIRRORED};
     memcpy(box.lower, scene->lower, sizeof box.lower);
     memcpy(box.upper, scene->upper, sizeof box.upper);
+    memcpy(box.grading, scene->grading, sizeof box.grading);
     for (int face = 0; face < SOLVER_SURFACE; face++) {
         box.wall[face] = (uint32_t)solver_scene_wall(scene, face);
     }

@@ -9,6 +9,7 @@
 #define SOLVER_SCENE_H
 
 #include "solver/error.h"
+#include "solver/grading.h"
 #include "solver/hardening.h"
 #include "solver/shape.h"
 
@@ -245,7 +246,8 @@ struct solver_scene {
     int n;                     /* spacings along the reference length */
     int levels[SOLVER_LEVELS]; /* values of n for a study, increasing */
     size_t level_count;
-    double perturb; /* random shift of interior particles, as a fraction of the spacing, [0, 0.45] */
+    struct solver_grading grading[3]; /* along each axis of a box; n spacings are then means */
+    double perturb;                   /* random shift of interior particles, as a fraction of the spacing, [0, 0.45] */
     uint64_t seed;
 
     char material_model[SOLVER_NAME];

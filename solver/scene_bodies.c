@@ -2,6 +2,7 @@
  * allow each other. */
 #include "solver/cloud.h"
 #include "solver/scene_internal.h"
+#include "solver/stencil.h"
 
 #include <float.h>
 #include <math.h>
@@ -130,6 +131,38 @@ static void read_bodies(lua_State *L, struct solver_scene *scene)
         scene_refuse(L, "perturb: expected 0 with bodies, got %g; a domain can be perturbed", scene->perturb);
 }
 
+/* --- graded lattices --- */
+
+/* Lines of a box alone have spacings that change, and stencils along lines alone follow them: where pairs are found by
+ * a radius there is one for all. */
+static void check_grading(lua_State *L, const struct solver_scene *scene)
+{
+    const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
+    for (int d = 0; d < 3; d++) {
+        if (solver_grading_is_even(&scene->grading[d]))
+            continue;
+        const char axis = "XYZ"[d];
+        if (d >= scene->dim)
+            scene_refuse(L, "grading.%c: a body of dim = %d has no such axis", axis, scene->dim);
+        if (scene->shape_count > 0 || scene->domain.kind != SOLVER_SHAPE_BOX)
+            scene_refuse(L, "grading.%c: expected 1 but in a domain that is a box", axis);
+        if (scene->lattice != SOLVER_NODES)
+            scene_refuse(L, "grading.%c: expected lattice = \"nodes\" with it, got \"centres\"", axis);
+        if (scene->perturb > 0)
+            scene_refuse(L, "grading.%c: expected perturb = 0 with it, got %g", axis, scene->perturb);
+        if (strcmp(scene->scheme, "ulsph") == 0)
+            scene_refuse(L,
+                         "grading.%c: the kernel of scheme = \"ulsph\" has one support for all particles; expected "
+                         "upwind or jst",
+                         axis);
+        if (builder != NULL && !builder->lattice_only)
+            scene_refuse(L,
+                         "grading.%c: stencil = \"%s\" has one support for all particles; expected sbp2 or sbp4, along "
+                         "lattice lines",
+                         axis, scene->stencil);
+    }
+}
+
 /* --- a domain --- */
 
 static const char *const shape_names[] = {"box", "disc", "ball", "cylinder", "solid", "stl"};
@@ -217,6 +250,7 @@ void scene_read_bodies(lua_State *L, struct solver_scene *scene)
         read_bodies(L, scene);
     else
         check_domain(L, scene);
+    check_grading(L, scene);
     lua_pop(L, 2);
 }
 

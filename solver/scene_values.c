@@ -159,8 +159,8 @@ static void check_group(lua_State *L, const char *group)
 
 void scene_read_plain(lua_State *L, struct solver_scene *scene)
 {
-    static const char *const groups[] = {"domain",  "material", "incompressible", "jst",   "ulsph",
-                                         "contact", "golden",   "initial",        "faces", "view"};
+    static const char *const groups[] = {"domain", "material", "incompressible", "jst",  "ulsph",  "contact",
+                                         "golden", "initial",  "faces",          "view", "grading"};
     for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
         check_group(L, groups[i]);
     scene_lua_push(L, "view");

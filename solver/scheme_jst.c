@@ -25,28 +25,50 @@ static void destroy(void *of)
     solver_upwind_destroy(system);
 }
 
+/* On a graded lattice dx^3 in D4 is one factor of it to this power in either Laplacian, so that they stay each other's
+ * adjoint. */
+static const double of_laplacian = 1.5;
+
+/* Length of a pair over the spacing where that changes, else 1: what dx is for the pair. */
+static double lengthened(const struct solver_cloud *cloud, size_t a, size_t b)
+{
+    size_t dim = (size_t)cloud->dim;
+    double square = 0.0;
+    if (!solver_cloud_graded(cloud)) {
+        return 1.0;
+    }
+    for (size_t i = 0; i < dim; i++) {
+        double d = cloud->X[b * dim + i] - cloud->X[a * dim + i];
+        square += d * d;
+    }
+    return sqrt(square) / cloud->spacing;
+}
+
 /* Of particle a: k = A_ab / |X_ab| of each of its pairs into `weight`, and what scales and corrects them. */
 struct sums {
     double scale;     /* s_a */
     double moment[3]; /* m_a [m^(dim - 1)] */
 };
 
-static struct sums sum_weights(const struct solver_stencil *stencil, const double *X, size_t a, double *weight)
+static struct sums sum_weights(const struct solver_stencil *stencil, const struct solver_cloud *cloud, size_t a,
+                               double *weight)
 {
+    const double *X = cloud->X;
     size_t dim = (size_t)stencil->dim;
     struct sums sums = {.scale = 0.0};
     double second = 0.0;
     size_t shift = solver_stencil_shift(stencil, a);
     for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
-        const double *X_b = X + stencil->graph.neighbour[ab] * dim;
+        size_t b = stencil->graph.neighbour[ab];
         double d[3] = {0};
         double square = 0.0;
         for (size_t i = 0; i < dim; i++) {
-            d[i] = X_b[i] - X[a * dim + i];
+            d[i] = X[b * dim + i] - X[a * dim + i];
             square += d[i] * d[i];
         }
         weight[ab] = solver_stencil_C(stencil, ab + shift)[dim] / sqrt(square);
         second += weight[ab] * square;
+        weight[ab] *= pow(lengthened(cloud, a, b), of_laplacian);
         for (size_t i = 0; i < dim; i++) {
             sums.moment[i] += weight[ab] * d[i];
         }
@@ -76,6 +98,7 @@ static bool make_weights(struct system *system, bool harmonic, bool corrected, s
 {
     const struct solver_stencil *stencil = system->base.stencil;
     const struct solver_graph *graph = &stencil->graph;
+    const struct solver_cloud *cloud = system->base.body->cloud;
     double *weight = NULL;
     double *scale = NULL;
     bool done = solver_alloc((void **)&weight, stencil->pairs, sizeof *weight, "weights of a Laplacian", error) &&
@@ -84,7 +107,7 @@ static bool make_weights(struct system *system, bool harmonic, bool corrected, s
                 (!harmonic ||
                  solver_alloc((void **)&system->exchange, stencil->pairs, sizeof(double), "harmonic weights", error));
     for (size_t a = 0; done && a < stencil->count; a++) {
-        struct sums sums = sum_weights(stencil, system->base.body->cloud->X, a, weight);
+        struct sums sums = sum_weights(stencil, cloud, a, weight);
         scale[a] = sums.scale;
         for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
             double l = sums.scale * weight[ab] - (corrected ? correction(stencil, a, ab, sums.moment) : 0.0);
@@ -97,7 +120,9 @@ static bool make_weights(struct system *system, bool harmonic, bool corrected, s
     }
     for (size_t a = 0; done && harmonic && a < stencil->count; a++) {
         for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
-            system->exchange[ab] = 0.5 * (scale[a] + scale[graph->neighbour[ab]]) * weight[ab];
+            size_t b = graph->neighbour[ab];
+            double dx = pow(lengthened(cloud, a, b), 1.0 - of_laplacian); /* over what the weight has of it */
+            system->exchange[ab] = 0.5 * (scale[a] + scale[b]) * weight[ab] * dx;
         }
     }
     free(weight);

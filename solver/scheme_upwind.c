@@ -436,7 +436,8 @@ void solver_upwind_refresh(void *of, size_t begin, size_t end)
     system->loops->stresses(&system->work, begin, end);
 }
 
-/* The step that the CFL number allows (eq. 41), less where materials meet or particles crowd. */
+/* The step that the CFL number allows (eq. 41), by the smallest spacing, less where materials meet or particles crowd.
+ */
 double solver_upwind_largest_step(const void *of)
 {
     const struct solver_upwind_system *system = of;
@@ -452,7 +453,7 @@ double solver_upwind_largest_step(const void *of)
                 : work->material->fastest(work->constants, work->stride, at.begin, at.end, work->F);
         fastest = fmax(fastest, here);
     }
-    return system->body->scene->cfl * system->body->cloud->spacing / (fastest * system->meeting);
+    return system->body->scene->cfl * system->stencil->finest / (fastest * system->meeting);
 }
 
 size_t solver_upwind_first_broken(const void *of, size_t begin, size_t end)

@@ -233,7 +233,7 @@ static double largest_step(const void *of)
         struct solver_piece at = solver_piece_at(piece, body->cloud->count);
         fastest = fmax(fastest, fastest_of(system, at.begin, at.end));
     }
-    return body->scene->cfl * body->cloud->spacing / (fastest * system->base.meeting);
+    return body->scene->cfl * system->base.stencil->finest / (fastest * system->base.meeting);
 }
 
 /* --- one particle, as a system of its own --- */

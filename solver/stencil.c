@@ -60,7 +60,7 @@ const struct solver_stencil_builder *solver_stencil_find(const char *name)
 static bool are_apart(const struct solver_cloud *cloud, const struct solver_graph *graph, struct solver_error *error)
 {
     size_t dim = (size_t)cloud->dim;
-    double least = 1e-6 * cloud->spacing;
+    double least = 1e-6 * solver_cloud_finest(cloud);
     for (size_t a = 0; a < cloud->count; a++) {
         for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
             size_t b = graph->neighbour[ab];
@@ -87,6 +87,7 @@ bool solver_stencil_reserve(struct solver_stencil *stencil, const struct solver_
     stencil->dim = cloud->dim;
     stencil->count = cloud->count;
     stencil->spacing = cloud->spacing;
+    stencil->finest = solver_cloud_finest(cloud);
     stencil->unit = 1.0;
     stencil->pairs = stencil->graph.row[cloud->count];
     stencil->records = stencil->pairs;
@@ -160,6 +161,13 @@ bool solver_stencil_create(const struct solver_stencil_builder *builder, const s
             error, SOLVER_BAD_INPUT,
             "stencil: %s works along the lines of a box's lattice, and a body of another shape has none; expected "
             "closed, or another stencil for any cloud",
+            builder->name);
+    }
+    if (!builder->lattice_only && solver_cloud_graded(cloud)) {
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "stencil: %s has one support for all particles, and spacings of this lattice change; expected "
+            "sbp2 or sbp4",
             builder->name);
     }
     if (!solver_alloc((void **)&stencil, 1, sizeof *stencil, "stencil", error)) {

@@ -18,6 +18,7 @@ struct solver_stencil {
     int dim;
     size_t count, pairs;
     double spacing; /* [m] */
+    double finest;  /* [m] of a step by a CFL number: the spacing where it is smallest */
     struct solver_graph graph;
     double *pair;       /* [records][dim + 1]: C_ab, then the face measure A_ab of the upwind dissipation,
                                max(0, (C_ab - C_ba)/2 . N_ab) unless the builder knows better; one record, so that a

@@ -1,6 +1,10 @@
 /* Summation-by-parts operators along the lines of a lattice: H D = Q, Q + Q^T = diag(-1, 0, ..., 0, 1), H diagonal.
  * As pair vectors C_ab = 2 Q_ab times the quadrature weights of the other axes.
  *
+ * On a graded lattice the weights are w = Q X, those that make D X = 1. They sum to the length and have its first
+ * moment, since 1^T Q = (-1, 0, ..., 0, 1) and X^T Q X = [X^2]/2; what follows from Q alone, antisymmetry and closure,
+ * stays. So D is the operator in a coordinate whose steps are even, d/dX = (dX/di)^-1 d/di, both by the same rows.
+ *
  * The face measure of the dissipation is that of the faces between nearest neighbours, not max(0, N . C_ab): the 4-2
  * operator's C_ab are no face areas (4/3 and -1/6 of one), and its long pairs near the boundary would smear. */
 #include "solver/memory.h"
@@ -151,15 +155,112 @@ static double entry(const struct solver_cloud *cloud, const struct line_operator
     return j - piece.first < piece.points ? entry_in(line, i - piece.first, j - piece.first, piece.points) : 0.0;
 }
 
+/* Q_ij for any two points of a line. */
+static double row_entry(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis, uint32_t i,
+                        uint32_t j)
+{
+    return j == i ? 0.0 : j > i ? entry(cloud, line, axis, i, j) : -entry(cloud, line, axis, j, i);
+}
+
+/* (Q X)_i [m] of a graded line, of points from `first` to `last`; rows of Q sum to zero. */
+static double differentiated(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis,
+                             uint32_t i, uint32_t first, uint32_t last)
+{
+    const double *X = cloud->plane[axis];
+    double sum = 0.0;
+    for (uint32_t j = i > first + line->reach ? i - line->reach : first; j <= i + line->reach && j <= last; j++) {
+        sum += row_entry(cloud, line, axis, i, j) * (X[j] - X[i]);
+    }
+    return sum;
+}
+
+/* Quadrature weight [m]. */
+static double width(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis, uint32_t i)
+{
+    return cloud->plane[axis] == NULL ? cloud->spacing * weight(cloud, line, axis, i)
+                                      : differentiated(cloud, line, axis, i, 0, cloud->points[axis] - 1);
+}
+
+/* Quadrature weight of a piece's k-th point over half of the gaps to its neighbours in it: of an even line, */
+static double even_room(const struct line_operator *line, struct piece piece, uint32_t k)
+{
+    return weight_in(line, k, piece.points) * (k == 0 || k + 1 == piece.points ? 2.0 : 1.0);
+}
+
+/* and of any. */
+static double room(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis, struct piece piece,
+                   uint32_t k)
+{
+    const double *X = cloud->plane[axis];
+    if (X == NULL) {
+        return even_room(line, piece, k);
+    }
+    uint32_t i = piece.first + k;
+    uint32_t last = piece.first + piece.points - 1;
+    double gaps = X[i < last ? i + 1 : i] - X[k > 0 ? i - 1 : i];
+    return differentiated(cloud, line, axis, i, piece.first, last) / (0.5 * gaps);
+}
+
 /* Face measure between points i and i + 1, in face areas. A row's faces may not enclose more than its quadrature
  * weight, 1/2 sum A h <= H h, or the smallest rows would limit the time step. */
 static double face(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis, uint32_t i)
 {
     struct piece piece = piece_at(cloud, line, axis, i);
     uint32_t k = i - piece.first;
-    double at_i = weight_in(line, k, piece.points) * (k == 0 ? 2.0 : 1.0);
-    double at_next = weight_in(line, k + 1, piece.points) * (k + 2 == piece.points ? 2.0 : 1.0);
-    return line->face * fmin(1.0, fmin(at_i, at_next));
+    return line->face * fmin(1.0, fmin(room(cloud, line, axis, piece, k), room(cloud, line, axis, piece, k + 1)));
+}
+
+/* Quadrature weights [m] of the lines along each axis, [points] each after the other. */
+struct widths {
+    double *all, *axis[3];
+};
+
+/* What the weight of a point on a graded line may be, over what it is on an even one with the same gaps. Where spacings
+ * change much from one to the next, rows of higher order take what lies far for what is near; in the end weights fall
+ * below zero. */
+static const double narrowest = 0.5, widest = 2.0;
+
+/* The weights on a graded line are positive and like those of an even one; `finest` is then what a step by a CFL number
+ * goes by, as D is at most that of the even line over the least of w_i / H_i. */
+static bool check_widths(const struct solver_cloud *cloud, const struct line_operator *line, size_t axis,
+                         const double *of, double *finest, struct solver_error *error)
+{
+    const double *X = cloud->plane[axis];
+    for (uint32_t i = 0; X != NULL && i < cloud->points[axis]; i++) {
+        struct piece piece = piece_at(cloud, line, axis, i);
+        double ratio = room(cloud, line, axis, piece, i - piece.first) / even_room(line, piece, i - piece.first);
+        if (!(ratio >= narrowest && ratio <= widest)) {
+            return solver_fail(
+                error, SOLVER_BAD_INPUT,
+                "grading.%c: spacings change too fast for stencil %s, whose weight of the point at %g m is "
+                "%.2g times that on an even line; expected %g to %g: choose a larger n, a smaller ratio, or "
+                "stencil sbp2",
+                "XYZ"[axis], line -> name, X[i], ratio, narrowest, widest);
+        }
+        *finest = fmin(*finest, of[i] / weight(cloud, line, axis, i));
+    }
+    return true;
+}
+
+static bool make_widths(const struct solver_cloud *cloud, const struct line_operator *line, struct widths *widths,
+                        double *finest, struct solver_error *error)
+{
+    size_t points = (size_t)cloud->points[0] + cloud->points[1] + cloud->points[2];
+    *finest = cloud->spacing;
+    if (!solver_alloc((void **)&widths->all, points, sizeof *widths->all, "weights of lines", error)) {
+        return false;
+    }
+    bool good = true;
+    double *next = widths->all;
+    for (size_t axis = 0; good && axis < (size_t)cloud->dim; axis++) {
+        for (uint32_t i = 0; i < cloud->points[axis]; i++) {
+            next[i] = width(cloud, line, axis, i);
+        }
+        good = check_widths(cloud, line, axis, next, finest, error);
+        widths->axis[axis] = next;
+        next += cloud->points[axis];
+    }
+    return good;
 }
 
 /* A neighbour on one of the lines through a particle. */
@@ -184,9 +285,7 @@ static size_t list_pairs(const struct solver_cloud *cloud, const struct line_ope
         uint32_t points = cloud->points[axis];
         uint32_t first = site[axis] > line->reach ? site[axis] - line->reach : 0;
         for (uint32_t j = first; j <= site[axis] + line->reach && j < points; j++) {
-            double Q = j == site[axis]  ? 0.0
-                       : j > site[axis] ? entry(cloud, line, axis, site[axis], j)
-                                        : -entry(cloud, line, axis, j, site[axis]);
+            double Q = row_entry(cloud, line, axis, site[axis], j);
             if (Q != 0.0) {
                 size_t at = home + j * stride[axis] - site[axis] * stride[axis];
                 bool next = j + 1 == site[axis] || j == site[axis] + 1;
@@ -207,13 +306,13 @@ static size_t list_pairs(const struct solver_cloud *cloud, const struct line_ope
 }
 
 /* Product of the quadrature weights [m] of all axes but `except` (3: of all). */
-static double measure(const struct solver_cloud *cloud, const struct line_operator *line, size_t a, size_t except)
+static double measure(const struct solver_cloud *cloud, const struct widths *widths, size_t a, size_t except)
 {
     size_t dim = (size_t)cloud->dim;
     double product = 1.0;
     for (size_t axis = 0; axis < dim; axis++) {
         if (axis != except) {
-            product *= cloud->spacing * weight(cloud, line, axis, cloud->site[a * dim + axis]);
+            product *= widths->axis[axis][cloud->site[a * dim + axis]];
         }
     }
     return product;
@@ -234,7 +333,9 @@ static bool check(const struct solver_cloud *cloud, const struct line_operator *
     for (size_t a = 0; a < cloud->count; a++) {
         for (size_t axis = 0; axis < dim; axis++) {
             /* particle 0 is the lattice's first site, so its position is the lattice's origin */
-            double expected = cloud->X[axis] + cloud->spacing * (double)cloud->site[a * dim + axis];
+            uint32_t site = cloud->site[a * dim + axis];
+            const double *plane = cloud->plane[axis];
+            double expected = plane != NULL ? plane[site] : cloud->X[axis] + cloud->spacing * (double)site;
             if (fabs(cloud->X[a * dim + axis] - expected) > tolerance * (1.0 + (double)cloud->points[axis])) {
                 return solver_fail(error, SOLVER_BAD_INPUT,
                                    "stencil: %s works on lattices only, and this cloud is perturbed; use stencil "
@@ -252,10 +353,13 @@ static bool build(const struct solver_cloud *cloud, const struct line_operator *
     size_t dim = (size_t)cloud->dim;
     struct solver_graph *graph = &stencil->graph;
     uint32_t *particle_at = NULL;
+    struct widths widths = {.all = NULL};
+    double finest;
     struct line_pair pairs[MOST_PAIRS];
     graph->count = cloud->count;
-    if (!check(cloud, line, error) ||
+    if (!check(cloud, line, error) || !make_widths(cloud, line, &widths, &finest, error) ||
         !solver_alloc((void **)&particle_at, cloud->count, sizeof *particle_at, "lattice map", error)) {
+        free(widths.all);
         return false;
     }
     for (size_t a = 0; a < cloud->count; a++) {
@@ -275,13 +379,14 @@ static bool build(const struct solver_cloud *cloud, const struct line_operator *
          solver_stencil_reserve(stencil, cloud, error);
     graph->row_room = ok ? cloud->count + 1 : 0;
     graph->neighbour_room = ok ? graph->row[cloud->count] : 0;
+    stencil->finest = finest;
     for (size_t a = 0; ok && a < cloud->count; a++) {
         size_t found = list_pairs(cloud, line, particle_at, a, pairs);
-        stencil->V[a] = measure(cloud, line, a, 3);
+        stencil->V[a] = measure(cloud, &widths, a, 3);
         for (size_t i = 0; i < found; i++) {
             size_t ab = graph->row[a] + i;
             graph->neighbour[ab] = pairs[i].neighbour;
-            double area = measure(cloud, line, a, pairs[i].axis);
+            double area = measure(cloud, &widths, a, pairs[i].axis);
             solver_stencil_C(stencil, ab)[pairs[i].axis] = 2.0 * pairs[i].Q * area;
             solver_stencil_C(stencil, ab)[dim] = pairs[i].face * area;
         }
@@ -289,8 +394,9 @@ static bool build(const struct solver_cloud *cloud, const struct line_operator *
     for (size_t i = 0; ok && i < stencil->face_point_count; i++) {
         struct solver_face_point *point = &stencil->face_point[i];
         size_t axis = point->face / 2;
-        point->area[axis] = (point->face % 2 == 0 ? -1.0 : 1.0) * measure(cloud, line, point->particle, axis);
+        point->area[axis] = (point->face % 2 == 0 ? -1.0 : 1.0) * measure(cloud, &widths, point->particle, axis);
     }
+    free(widths.all);
     free(particle_at);
     return ok;
 }

@@ -3,7 +3,7 @@ foreach(extreme scale place alternating poisson perturbed small spin)
   assay_test(extremes-${extreme} LABELS stability gate COMMAND $<TARGET_FILE:assay> extremes ${extreme})
 endforeach()
 # These close in on where runs break down, by runs that do.
-foreach(extreme stretch impact contrast slanted)
+foreach(extreme stretch impact contrast slanted graded)
   assay_test(extremes-${extreme} LABELS stability gate UNTRAPPED "runs break down" COMMAND $<TARGET_FILE:assay> extremes
     ${extreme})
 endforeach()
@@ -14,7 +14,7 @@ assay_test(extremes-vibration LABELS stability gate slow COMMAND $<TARGET_FILE:a
 # and an integrator that gains energy where nothing is dissipated. For cfl see the mutants (mustfail.cmake).
 set(cli sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh)
 foreach(row "poisson;11;cfl=2" "stretch;16;cfl=3" "perturbed;7;cfl=2" "impact;7;cfl=2" "contrast;8;cfl=2"
-        "slanted;14;cfl=3"
+        "slanted;14;cfl=3" "graded;4;cfl=8"
         "small;25;speed=1e-3;--set;integrator=euler" "spin;3;angular_momentum=free" "scale;6;material.rho=1e3"
         "place;12;material.model=linear-elastic" "vibration;1;integrator=tvd-rk2;--set;cfl=0.1;no dissipation")
   list(POP_FRONT row extreme failing)

@@ -61,6 +61,26 @@ study_gate(jst-long LABELS gate stability SCENE ${quick_scene}
   BOUNDS "gate p <= 1.81e-3" "gate P <= 2.65e-3"
   WORDS --levels 16 --set scheme=jst --set t_end=0.05)
 
+# Graded 10 to 1 along X. Measured with upwind: sbp2 {p,F} 1.59e-3, 3.79e-3, 1.67, 1.87, {p,F,H,J} 1.58e-3, 3.16e-3, 1.75,
+# 1.84; sbp4 {p,F} 3.48e-4, 4.08e-4, 2.79, 4.14, {p,F,H,J} 3.45e-4, 4.27e-4, 2.69, 4.01. With JST: sbp2 {p,F} 2.09e-3,
+# 3.04e-3, 1.63, 2.00, {p,F,H,J} 2.06e-3, 2.87e-3, 1.63, 2.00; sbp4 {p,F} 4.01e-4, 5.01e-4, 2.56, 3.99, {p,F,H,J} 4.69e-4,
+# 9.82e-4, 2.47, 2.65.
+set(graded_upwind_sbp2 "gate p <= 1.7e-3" "gate P <= 4e-3" "gate rate p >= 1.6" "gate rate P >= 1.75")
+set(graded_upwind_sbp4 "gate p <= 4.4e-4" "gate P <= 5.3e-4" "gate rate p >= 2.6" "gate rate P >= 3.6")
+set(graded_jst_sbp2 "gate p <= 2.2e-3" "gate P <= 3.2e-3" "gate rate p >= 1.55" "gate rate P >= 1.9")
+set(graded_jst_sbp4 "gate p <= 5e-4" "gate P <= 1.05e-3" "gate rate p >= 2.4" "gate rate P >= 2.5")
+foreach(scheme upwind jst)
+  set(slow_at_pF slow)
+  set(slow_at_pFHJ "")
+  foreach(evolved pF pFHJ)
+    set(words --set grading.X=10 --set scheme=${scheme} --set evolved=${evolved})
+    study_gate(graded-${scheme}-sbp2-${evolved} LABELS gate ${slow_at_${evolved}} BOUNDS ${graded_${scheme}_sbp2}
+      WORDS ${words} --set stencil=sbp2 ${rk2})
+    study_gate(graded-${scheme}-sbp4-${evolved} LABELS gate ${slow_at_${evolved}} BOUNDS ${graded_${scheme}_sbp4}
+      WORDS ${words})
+  endforeach()
+endforeach()
+
 # As printed in the paper: its pair vectors leave a constant stress with a force on the boundary, which is of first
 # order. Measured 3.44e-2, 8.22e-2, 0.95, 0.86; the bounds are these and 5 %, orders 0.1 less.
 study_gate(sph LABELS gate

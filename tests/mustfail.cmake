@@ -129,6 +129,8 @@ assay_mutant(corner-constraint "p,P" ${quick_sbp2})
 assay_mutant(stress-one-percent "p,P" ${quick_sbp4})
 assay_mutant(sbp2-boundary-weight "p,P" ${quick_sbp2})
 assay_mutant(sbp4-boundary-weight "p,P" ${quick_sbp4})
+assay_mutant(graded-width-even "p,P" swinging-cube --levels 16,24 --set threads=1 --set grading.X=10 --set stencil=sbp2
+             --set integrator=tvd-rk2 --set cfl=0.3)
 assay_mutant(free-traction "p,P" ${quick_sbp2})
 assay_mutant(rk2-weight "p,P" ${quick_sbp2})
 assay_mutant(rk4-weight "p,P" ${quick_sbp4})

@@ -18,8 +18,12 @@ static void print_facts(const struct solver_scene *scene, const struct solver_fa
     char residual[VERIFY_RESIDUAL];
     double particle_steps = (double)facts->particles * (double)facts->steps;
     (void)printf("%s (%s)\n", scene->title, scene->path);
-    (void)printf("  %zu particles, spacing %.6g m, %zu pairs, %zu steps to t = %.6g s on %d threads\n",
-                 facts->particles, facts->spacing, facts->pairs, facts->steps, scene->t_end, facts->threads);
+    char graded[48] = "";
+    if (facts->finest < facts->spacing) {
+        (void)snprintf(graded, sizeof graded, " (mean; smallest %.6g m)", facts->finest);
+    }
+    (void)printf("  %zu particles, spacing %.6g m%s, %zu pairs, %zu steps to t = %.6g s on %d threads\n",
+                 facts->particles, facts->spacing, graded, facts->pairs, facts->steps, scene->t_end, facts->threads);
     (void)printf("  set up in %.3f s, ran for %.3f s: %.1f ns per particle-step\n", facts->setup_seconds,
                  facts->seconds, 1e9 * facts->seconds / particle_steps);
     (void)printf("  %.0f bytes per particle, %.0f of them fields of the scheme%s\n", facts->bytes_per_particle,

@@ -1,8 +1,10 @@
 #include "verify/extremes.h"
 
 #include "verify/find.h"
+#include "verify/norms.h"
 #include "verify/signals.h"
 #include "verify/simulate.h"
+#include "verify/truth.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -34,6 +36,8 @@ static const struct verify_extreme table[] = {
      "bimaterial-wave", "n E2 rho2", NULL},
     {"slanted", "the same across a plane that is slanted against the lattice: a free body gains no energy",
      verify_extreme_slanted, BLOCK, "d n jump random speed t_end", NULL},
+    {"graded", "spacings within one body whose largest is many times the smallest", verify_extreme_graded,
+     "manufactured", "n levels grading.X grading.Y scheme stencil evolved", NULL},
     {"small", "the smallest clouds and the thinnest bodies: a right answer or a refusal", verify_extreme_small, BLOCK,
      "d n levels thickness flight", NULL},
     {.name = NULL},
@@ -172,6 +176,19 @@ static bool watch(void *context, double time, double t_end, size_t step)
 bool verify_trial_finish(struct verify_trial *trial, struct solver_error *error)
 {
     return solver_run_to(trial->run, trial->scene->t_end, watch, NULL, error) && goes_on(error);
+}
+
+bool verify_trial_judge(struct verify_trial *trial, const char *name, double *found, struct solver_error *error)
+{
+    struct verify_truth truth = {.kind = NULL};
+    struct solver_output out;
+    double all[VERIFY_STATE_ERRORS];
+    bool judged = verify_trial_finish(trial, error) && solver_run_output(trial->run, &out, error) &&
+                  verify_truth_create(trial->scene, &truth, error) &&
+                  verify_norms_state(&out, truth.kind, truth.oracle, all, error);
+    *found = judged ? all[verify_error_find(name)] : NAN;
+    verify_truth_free(&truth);
+    return judged;
 }
 
 bool verify_trial_steps(struct verify_trial *trial, size_t steps, struct solver_error *error)

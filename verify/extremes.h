@@ -63,6 +63,8 @@ void verify_trial_close(struct verify_trial *trial);
  */
 bool verify_trial_finish(struct verify_trial *trial, struct solver_error *error);
 bool verify_trial_steps(struct verify_trial *trial, size_t steps, struct solver_error *error);
+/* To the scene's end time, and the error of this name there (norms.h) beside the scene's oracle. */
+bool verify_trial_judge(struct verify_trial *trial, const char *name, double *found, struct solver_error *error);
 /* Root mean square of the velocities [m/s] and largest of them; NaN if there is no output. */
 double verify_trial_speed(struct verify_trial *trial, double *largest);
 
@@ -86,6 +88,7 @@ bool verify_extreme_perturbed(const struct verify_extremes *in, struct solver_er
 bool verify_extreme_impact(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_contrast(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_slanted(const struct verify_extremes *in, struct solver_error *error);
+bool verify_extreme_graded(const struct verify_extremes *in, struct solver_error *error);
 bool verify_extreme_small(const struct verify_extremes *in, struct solver_error *error);
 
 #endif

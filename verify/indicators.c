@@ -125,7 +125,9 @@ bool verify_indicators_measure(const struct solver_scene *scene, const struct so
     }
     const struct solver_points now = {
         .dim = cloud->dim, .count = cloud->count, .stride = (size_t)cloud->dim, .x = x, .body = cloud->body};
-    bool done = verify_indicators_cloud(&now, output->V, output->pressure, cloud->spacing, value, error);
+    bool done = solver_cloud_graded(cloud)
+                    ? verify_indicators_lattice(cloud, &now, output->V, output->pressure, value, error)
+                    : verify_indicators_cloud(&now, output->V, output->pressure, cloud->spacing, value, error);
     free(x);
     verify_indicators_history(history, facts->mass, half_diagonal(cloud), value);
     forget_what_is_not_conserved(scene, value);

@@ -39,6 +39,11 @@ bool verify_indicators_measure(const struct solver_scene *scene, const struct so
 bool verify_indicators_cloud(const struct solver_points *now, const double *V, const double *pressure, double spacing,
                              double value[VERIFY_INDICATORS], struct solver_error *error);
 
+/* The same of a graded lattice, where neighbours are those along the axes and across the faces, and each distance is
+ * taken over what it was at rest. */
+bool verify_indicators_lattice(const struct solver_cloud *cloud, const struct solver_points *now, const double *V,
+                               const double *pressure, double value[VERIFY_INDICATORS], struct solver_error *error);
+
 /* Drifts of momenta over the run, relative to those of a body of this mass [kg] and size [m] that has all of the
  * largest kinetic energy in one direction; largest energy beyond what was there and put in, relative to that. */
 void verify_indicators_history(const struct solver_history *history, double mass, double size,

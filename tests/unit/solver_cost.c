@@ -240,6 +240,7 @@ static void memory_is_as_declared(void)
         expect_memory(smooth_motion, "dim=%d stencil=closed", dim);
         expect_memory(smooth_motion, "dim=%d stencil=sbp4 n=8", dim);
         expect_memory(smooth_motion, "dim=%d stencil=sbp2 n=9", dim); /* rows are kept once */
+        expect_memory(smooth_motion, "dim=%d stencil=sbp2 n=9 grading.X=10", dim);
         expect_memory(smooth_motion, "dim=%d stencil=sbp2 n=9 precision=mixed", dim);
         expect_memory(smooth_motion, "dim=%d precision=single", dim);
         expect_memory(smooth_motion, "dim=%d precision=single evolved=pFJ integrator=rk4", dim);

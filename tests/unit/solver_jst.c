@@ -9,22 +9,25 @@ static const char halves[] = "material = { model = 'linear-elastic', E = 3, nu =
                              "    at = function(X) if X < 0.5 then return 3, 0.3, 2 end return 40, 0.1, 7 end }\n"
                              "scheme = 'jst'\n";
 
-/* Clouds for every stencil; those on lattices come first. */
-static const char *const clouds[] = {"dim=1 n=12 support=3",
+/* Clouds for every stencil that takes them; those on graded lattices come first, then those on even ones. */
+static const char *const clouds[] = {"dim=1 n=12 grading.X=10",
+                                     "dim=2 n=8 grading.X=10 grading.Y=3 grading.fine_Y=both",
+                                     "dim=3 n=7 grading.Y=10 grading.fine_Y=upper",
+                                     "dim=1 n=12 support=3",
                                      "dim=2 n=8 support=2.1",
                                      "dim=3 n=7 support=2.1",
                                      "dim=1 n=12 support=3 perturb=0.15",
                                      "dim=2 n=6 support=2.1 perturb=0.15",
                                      "dim=2 n=6 support=2.1 perturb=0.15 reconstruction=least-squares",
                                      "dim=3 n=4 support=2.1 perturb=0.15"};
-enum { CLOUDS = 7, LATTICES = 3 };
+enum { CLOUDS = 10, GRADED = 3, LATTICES = 6 };
 
 /* A body at rest and without stress, so that v_rate is what the dissipation makes of v. */
 static void each_body(const char *scene, const char *terms, void (*look)(struct sample *sample, const char *settings))
 {
     size_t seen = 0;
     for (const struct solver_stencil_builder *builder = solver_stencil_builders(); builder->name != NULL; builder++) {
-        for (size_t i = 0; i < (builder->lattice_only ? LATTICES : CLOUDS); i++) {
+        for (size_t i = builder->lattice_only ? 0 : GRADED; i < (builder->lattice_only ? LATTICES : CLOUDS); i++) {
             char settings[256];
             (void)snprintf(settings, sizeof settings, "stencil=%s %s %s", builder->name, clouds[i], terms);
             struct sample sample = start(scene, "%s", settings);
@@ -33,7 +36,7 @@ static void each_body(const char *scene, const char *terms, void (*look)(struct 
             seen++;
         }
     }
-    CU_ASSERT(seen >= 2 * CLOUDS + 2 * LATTICES);
+    CU_ASSERT(seen >= 2 * (CLOUDS - GRADED) + 2 * LATTICES);
 }
 
 static double mass(const struct sample *sample, const struct solver_output *output, size_t a)
@@ -269,6 +272,8 @@ static void test_printed(void)
 static void test_fastest(void)
 {
     static const char *const bodies[] = {"dim=1 n=12 stencil=sbp2",
+                                         "dim=1 n=12 stencil=sbp2 grading.X=10",
+                                         "dim=2 n=12 stencil=sbp4 grading.X=10 grading.Y=3 grading.fine_Y=both",
                                          "dim=2 n=12 stencil=sbp2",
                                          "dim=3 n=6 stencil=sbp2",
                                          "dim=2 n=12 stencil=sbp4",
@@ -292,7 +297,7 @@ static void test_fastest(void)
             }
         }
         double dim = (double)ulsph_dim(&sample);
-        double share = decay * sample.run->cloud->spacing / c / (16.0 * dim * dim);
+        double share = decay * solver_cloud_finest(sample.run->cloud) / c / (16.0 * dim * dim);
         printf("\n    %s: fastest decay %.3f of 16 dim^2 kappa4 c / h", bodies[i], share);
         CU_ASSERT(share > 0.2 && share < 1.1);
         finish(&sample);

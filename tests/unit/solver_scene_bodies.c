@@ -171,6 +171,7 @@ static void bad_round(void)
     static const struct bad bad[] = {
         {PLAIN_DOMAIN, "domain = { shape = 'egg' }", 0,
          "domain.shape: expected one of box, disc, ball, cylinder, solid, stl, got the text 'egg'"},
+        {DISC(" } grading = { X = 2 }"), 0, "grading.X: expected 1 but in a domain that is a box"},
         {PLAIN_DOMAIN, "domain = { shape = 'disc', radius = 2 }", 0,
          "domain.centre: missing; expected list of dim numbers [m] (of a round domain)"},
         {PLAIN_DOMAIN, "domain = { shape = 'disc', centre = {0, 0} }", 0,

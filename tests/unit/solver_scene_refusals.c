@@ -117,6 +117,27 @@ static void bad_keys(void)
     CHECK_ALL(bad);
 }
 
+static void bad_gradings(void)
+{
+    unit_untrapped();
+    static const struct bad bad[] = {
+        {0, "grading = { X = 0.5 }", 0, "grading.X: expected number in [1, 1e6], got 0.5"},
+        {0, "grading = { X = 0/0 }", 0, "grading.X: expected number in [1, 1e6], got NaN"},
+        {0, "grading = { X = 1e7 }", 0, "grading.X: expected number in [1, 1e6], got 10000000"},
+        {0, "grading = { X = 2, fine_X = 'left' }", 0,
+         "grading.fine_X: expected one of lower, upper, both, middle, got the text 'left'"},
+        {0, "grading = { ratio = 2 }", 0, "grading.ratio: unknown key"},
+        {0, "grading = { Z = 2 }", 0, "grading.Z: a body of dim = 2 has no such axis"},
+        {0, "grading = { Y = 2 } stencil = 'closed'", 0,
+         "grading.Y: stencil = \"closed\" has one support for all particles; expected sbp2 or sbp4"},
+        {0, "grading = { Y = 2 } scheme = 'ulsph'", 0,
+         "grading.Y: the kernel of scheme = \"ulsph\" has one support for all particles; expected upwind or jst"},
+        {0, "grading = { Y = 2 } lattice = 'centres'", 0, "grading.Y: expected lattice = \"nodes\" with it"},
+        {0, "grading = { Y = 2 } perturb = 0.1", 0, "grading.Y: expected perturb = 0 with it, got 0.1"},
+    };
+    CHECK_ALL(bad);
+}
+
 static void bad_resolution(void)
 {
     unit_untrapped();
@@ -432,6 +453,7 @@ int main(void)
 {
     static const struct unit_test tests[] = {
         {"bad keys", bad_keys},
+        {"bad gradings", bad_gradings},
         {"bad resolution", bad_resolution},
         {"bad parts", bad_parts},
         {"bad lists", bad_lists},

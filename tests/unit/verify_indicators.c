@@ -144,6 +144,44 @@ static void pairs_pulled_together(void)
     }
 }
 
+/* On a graded lattice smooth pressures are quiet and alternating ones are not, however the spacing changes, and what
+ * counts of a distance is how much of it is left. */
+static void graded_lattices(void)
+{
+    for (int dim = 1; dim <= 3; dim++) {
+        struct solver_cloud *cloud = NULL;
+        struct solver_box box = {.dim = dim, .upper = {1.0, 1.0, 1.0}, .spacing = 1.0 / 16.0};
+        box.grading[0] = (struct solver_grading){.ratio = 10.0};
+        CU_ASSERT_FATAL(solver_cloud_box(&box, &cloud, &error));
+        size_t stride = (size_t)dim;
+        struct solver_points now = {.dim = dim, .count = cloud->count, .stride = stride, .x = cloud->X};
+        for (size_t a = 0; a < cloud->count; a++) {
+            size_t sites = 0;
+            for (size_t i = 0; i < stride; i++) {
+                sites += cloud->site[a * stride + i];
+            }
+            pressure[a] = 3 + 2 * cloud->X[a * stride] - cloud->X[a * stride + stride - 1];
+            parity[a] = sites % 2 == 0 ? 1 : -1;
+        }
+        CU_ASSERT_FATAL(verify_indicators_lattice(cloud, &now, cloud->V, pressure, value, &error));
+        CU_ASSERT(value[VERIFY_CHECKERBOARD] < 1e-12);
+        CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_CLUMPING], 1, 1e-12);
+        for (size_t a = 0; a < cloud->count; a++) {
+            pressure[a] = 7 * parity[a];
+        }
+        cloud->X[0] += 0.7 * cloud->plane[0][1]; /* from the corner, towards its neighbour */
+        for (size_t i = 0; i < cloud->count * stride; i++) {
+            x[i] = cloud->X[i];
+        }
+        cloud->X[0] -= 0.7 * cloud->plane[0][1];
+        now.x = x;
+        CU_ASSERT_FATAL(verify_indicators_lattice(cloud, &now, cloud->V, pressure, value, &error));
+        CU_ASSERT(value[VERIFY_CHECKERBOARD] > 0.6);
+        CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_CLUMPING], 0.3, 1e-12);
+        solver_cloud_free(cloud);
+    }
+}
+
 /* Bodies that touch are no clump. */
 static void bodies_apart(void)
 {
@@ -259,6 +297,7 @@ int main(void)
         {"checkerboards fire", checkerboards_fire},
         {"no pressure", no_pressure},
         {"pairs pulled together", pairs_pulled_together},
+        {"graded lattices", graded_lattices},
         {"bodies apart", bodies_apart},
         {"positions that are none", positions_that_are_none},
         {"drifts", drifts},
