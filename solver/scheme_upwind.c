@@ -35,6 +35,7 @@ static void bind_stencil(struct solver_upwind_system *system)
     system->work.neighbour = stencil->graph.neighbour;
     system->work.pair = stencil->pair;
     system->work.shared = stencil->shared;
+    system->work.along = stencil->along;
     system->work.narrow = stencil->narrow;
     system->work.unit = stencil->unit;
     system->work.transposed = stencil->transposed;
@@ -52,7 +53,7 @@ void solver_upwind_destroy(void *of)
 }
 
 /* The stencil of the body's cloud; of a part of a symmetric body that of the whole is made, and reduced. */
-static bool make_stencil(struct solver_upwind_system *system, const struct solver_stencil_builder *builder,
+static bool make_stencil(struct solver_upwind_system *system, const struct solver_stencil_builder *builder, bool align,
                          struct solver_error *error)
 {
     const struct solver_scene *scene = system->body->scene;
@@ -66,7 +67,7 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     }
     system->residuals = solver_stencil_check(*stencil, cloud);
     return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
-           solver_stencil_share(*stencil, error) &&
+           (!align || solver_stencil_align(*stencil, part, error)) && solver_stencil_share(*stencil, error) &&
            (strcmp(scene->precision, "double") == 0 || solver_stencil_narrow(*stencil, error));
 }
 
@@ -100,7 +101,8 @@ static double meeting_of(const struct solver_stencil *stencil, const struct solv
     return fmax(1.0, sqrt(0.5 * meeting / fastest));
 }
 
-bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error)
+bool solver_upwind_create(const struct solver_body *body, size_t size, bool align, void **out,
+                          struct solver_error *error)
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
@@ -116,7 +118,7 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
     system->body = body;
     system->size = size;
     choose_terms(system, model->in[scene->dim - 1]);
-    if (!make_stencil(system, builder, error)) {
+    if (!make_stencil(system, builder, align, error)) {
         solver_upwind_destroy(system);
         return false;
     }
@@ -129,7 +131,7 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
 static bool create(const struct solver_body *body, void **out, struct solver_error *error)
 {
     void *made = NULL;
-    if (!solver_upwind_create(body, sizeof(struct solver_upwind_system), &made, error) || made == NULL) {
+    if (!solver_upwind_create(body, sizeof(struct solver_upwind_system), true, &made, error) || made == NULL) {
         return false;
     }
     struct solver_upwind_system *system = made;
