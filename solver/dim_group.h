@@ -58,15 +58,19 @@ static inline void take_apart(wide a, vec part[GROUP])
 #define EACH_LANE(f) f(0)
 #endif
 enum { WIDTH = GROUP * LANES };
-#define OF_PART_0(i)   ((i) / LANES * LANES)
-#define OF_PART_1(i)   ((i) / LANES * LANES + 1)
-#define OF_PART_2(i)   ((i) / LANES * LANES + 2)
-#define OF_PART_3(i)   ((i) / LANES * LANES + 3)
-#define EVEN(i)        ((i) / 2 * 2)
-#define ODD(i)         ((i) / 2 * 2 + 1)
-#define EVEN_OF_TWO(i) ((i) % 2 == 0 ? (i) : WIDTH + (i)-1)
-#define ODD_OF_TWO(i)  ((i) % 2 == 0 ? (i) + 1 : WIDTH + (i))
-#define OTHER_HALF(i)  ((i) / 4 * 4 + ((i) + 2) % 4)
+#define OF_PART_0(i)    ((i) / LANES * LANES)
+#define OF_PART_1(i)    ((i) / LANES * LANES + 1)
+#define OF_PART_2(i)    ((i) / LANES * LANES + 2)
+#define OF_PART_3(i)    ((i) / LANES * LANES + 3)
+#define EVEN(i)         ((i) / 2 * 2)
+#define ODD(i)          ((i) / 2 * 2 + 1)
+#define EVEN_OF_TWO(i)  ((i) % 2 == 0 ? (i) : WIDTH + (i)-1)
+#define ODD_OF_TWO(i)   ((i) % 2 == 0 ? (i) + 1 : WIDTH + (i))
+#define OTHER_HALF(i)   ((i) / 4 * 4 + ((i) + 2) % 4)
+#define OTHER_OF_TWO(i) ((i) / 2 * 2 + ((i) + 1) % 2)
+#define WITH_0(i)       ((i) % LANES == 0 ? WIDTH + (i) : (i))
+#define WITH_1(i)       ((i) % LANES == 1 ? WIDTH + (i) : (i))
+#define WITH_2(i)       ((i) % LANES == 2 ? WIDTH + (i) : (i))
 
 /* Component I, a constant, in every lane of its part. */
 static inline wide spread(wide a, int I)
@@ -83,6 +87,43 @@ static inline wide spread(wide a, int I)
     (void)I;
     return a;
 #endif
+}
+
+/* Component I, a constant, of `part`, and the others of `whole`. */
+static inline wide put_component(wide whole, wide part, int I)
+{
+#if DIM == 1
+    (void)whole;
+    (void)I;
+    return part;
+#else
+    return I == 0   ? __builtin_shufflevector(whole, part, EACH_LANE(WITH_0))
+           : I == 1 ? __builtin_shufflevector(whole, part, EACH_LANE(WITH_1))
+                    : __builtin_shufflevector(whole, part, EACH_LANE(WITH_2));
+#endif
+}
+
+/* The unit vector along axis I, a constant. */
+static inline wide unit_along(int I)
+{
+    real each[GROUP];
+    for (int g = 0; g < GROUP; g++) {
+        each[g] = 1;
+    }
+    return put_component((wide){0}, join_each(each), I);
+}
+
+/* a . b of each particle, in every lane of its part. */
+static inline wide spread_dot(wide a, wide b)
+{
+    wide dot = a * b;
+#if DIM > 1
+    dot += __builtin_shufflevector(dot, dot, EACH_LANE(OTHER_OF_TWO));
+#endif
+#if DIM == 3
+    dot += __builtin_shufflevector(dot, dot, EACH_LANE(OTHER_HALF));
+#endif
+    return dot;
 }
 
 /* a . b and c . d of each particle, in every lane of its part: half the shuffles of two dots. Lanes beyond DIM are

@@ -8,11 +8,20 @@
 
 enum { JOIN = FLOPS_TENSOR + LANES }; /* of the sums over every other neighbour */
 
+/* Whether loops of dim_aligned.h take the gradients. */
+static inline bool aligns_gradients(const struct solver_upwind *work)
+{
+    return work->along != NULL && !(work->pressure_gradient != NULL && work->stride != 0);
+}
+
 static inline void gradient_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
 {
     double pairs = (double)work->row[count];
     double particles = (double)count;
     double of_vector = pairs * (LANES + FLOPS_ADD_SCALED) + particles * JOIN;
+    if (aligns_gradients(work)) {
+        of_vector = pairs * 3.0 * LANES;
+    }
     bool own = work->least_squares != NULL;
     solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (2.0 * LANES + FLOPS_TENSOR));
     if (work->v_gradient != NULL) {
@@ -27,6 +36,18 @@ static inline void gradient_terms(const struct solver_upwind *work, size_t count
                          pairs * DIM * (LANES + FLOPS_ADD_SCALED) +
                              particles * (DIM * FLOPS_TENSOR + (own ? 0.0 : 1.0)));
     }
+}
+
+/* Whether rates are those with linear reconstruction, on a stencil that is antisymmetric, of one material. */
+static inline bool is_plain(const struct solver_upwind *work)
+{
+    return work->reconstruct && work->transposed == NULL && work->stride == 0 && !(work->evolves_J && work->whole_jump);
+}
+
+/* Whether loops of dim_aligned.h take the rates. */
+static inline bool aligns_rates(const struct solver_upwind *work)
+{
+    return work->along != NULL && is_plain(work);
 }
 
 /* Whether pairs have a turned area: else n = N. */
@@ -62,8 +83,34 @@ static inline void volume_terms(const struct solver_upwind *work, double pairs, 
     solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? pairs * slope : 0.0);
 }
 
+/* Those of dim_aligned.h. */
+static inline void aligned_rate_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
+{
+    double pairs = (double)work->row[count];
+    double particles = (double)count;
+    double vector = LANES;
+    double of_axes = particles * DIM * vector; /* a vector for each axis */
+    bool turned = !work->frozen;
+    double normal = turned ? (IN_SINGLE ? 6.0 : 5.0) * vector + FLOPS_SPREAD_DOTS : 0.0;
+    solver_cost_term(terms, "internal force", 2, pairs * 2.0 * vector + of_axes);
+    solver_cost_term(terms, "dissipation of p", 2,
+                     pairs * (3.0 * vector + normal) + of_axes * (turned ? 2.0 : 1.0) + particles * 4.0 * vector);
+    solver_cost_term(terms, "reconstruction for p", 2, pairs * 5.0 * vector + of_axes);
+    if (work->evolves_J) {
+        double area = turned ? (IN_SINGLE ? 6.0 : 5.0) * vector + FLOPS_SPREAD_DOT : 0.0;
+        double present = turned ? 6.0 + (work->stiffness != NULL ? 1.0 : 0.0) : 0.0; /* impedance */
+        solver_cost_term(terms, "dissipation of J", 2,
+                         pairs * (3.0 * vector + area + present) + of_axes + (turned ? 4.0 * particles : 0.0));
+        solver_cost_term(terms, "reconstruction for J", 2, pairs * 3.0 * vector);
+    }
+}
+
 static inline void rate_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
 {
+    if (aligns_rates(work)) {
+        aligned_rate_terms(work, count, terms);
+        return;
+    }
     double pairs = (double)work->row[count];
     double particles = (double)count;
     double meet = pairs_that_meet(work, count);

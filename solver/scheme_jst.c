@@ -163,7 +163,7 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
     const struct solver_scene *scene = body->scene;
     double dx = body->cloud->spacing;
     void *made = NULL;
-    if (!solver_upwind_create(body, sizeof(struct system), &made, error)) {
+    if (!solver_upwind_create(body, sizeof(struct system), false, &made, error)) {
         return false;
     }
     struct system *system = made;

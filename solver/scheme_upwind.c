@@ -6,6 +6,7 @@
 #include "solver/pieces.h"
 #include "solver/pressure.h"
 #include "solver/symmetry.h"
+#include "solver/upwind_step.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,6 +36,7 @@ static void bind_stencil(struct solver_upwind_system *system)
     system->work.neighbour = stencil->graph.neighbour;
     system->work.pair = stencil->pair;
     system->work.shared = stencil->shared;
+    system->work.along = stencil->along;
     system->work.narrow = stencil->narrow;
     system->work.unit = stencil->unit;
     system->work.transposed = stencil->transposed;
@@ -52,7 +54,7 @@ void solver_upwind_destroy(void *of)
 }
 
 /* The stencil of the body's cloud; of a part of a symmetric body that of the whole is made, and reduced. */
-static bool make_stencil(struct solver_upwind_system *system, const struct solver_stencil_builder *builder,
+static bool make_stencil(struct solver_upwind_system *system, const struct solver_stencil_builder *builder, bool align,
                          struct solver_error *error)
 {
     const struct solver_scene *scene = system->body->scene;
@@ -66,69 +68,12 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     }
     system->residuals = solver_stencil_check(*stencil, cloud);
     return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
-           solver_stencil_share(*stencil, error) &&
+           (!align || solver_stencil_align(*stencil, part, error)) && solver_stencil_share(*stencil, error) &&
            (strcmp(scene->precision, "double") == 0 || solver_stencil_narrow(*stencil, error));
 }
 
-/* Where the stencil of a stiff particle reaches a light one its stress moves that one's mass, faster than waves run in
- * either material. A particle held by its neighbours alone swings with omega^2 = k / m, k = sum_b (lambda + 2 mu)_b
- * |C_ab|^2 / 4 V_b. On a line of one material omega h is c / sqrt(2), where the fastest mode has c: so what counts is
- * half the neighbours' mean modulus over a particle's own density. Returns the square root of the largest over c^2 of
- * the fastest wave, or 1, which it is where a particle on the interface, of both sides' mean density and compliance,
- * hides them from each other. */
-static double meeting_of(const struct solver_stencil *stencil, const struct solver_material_constants *constants)
-{
-    double fastest = 0.0;
-    double meeting = 0.0;
-    for (size_t a = 0; a < stencil->graph.count; a++) {
-        double sum = 0.0;
-        double weights = 0.0;
-        size_t shift = solver_stencil_shift(stencil, a);
-        for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
-            size_t b = stencil->graph.neighbour[ab];
-            const double *C = solver_stencil_C(stencil, ab + shift);
-            double weight = 0.0;
-            for (int i = 0; i < stencil->dim; i++) {
-                weight += C[i] * C[i] / stencil->V[b];
-            }
-            sum += weight * constants[b].zp * constants[b].cp;
-            weights += weight;
-        }
-        fastest = fmax(fastest, constants[a].cp * constants[a].cp);
-        meeting = weights > 0.0 ? fmax(meeting, sum / (weights * constants[a].rho)) : meeting;
-    }
-    return fmax(1.0, sqrt(0.5 * meeting / fastest));
-}
-
-/* What particles that were moved at random share as faces: the areas A_ab = max(0, N_ab . C_ab) of the dissipation sum
- * to 2 dim V_a / h on a lattice, whose particles are h apart, and to more where some are nearer, or where pair vectors
- * point away from their pairs and others make up for it. The fastest decay grows by as much, and the step shrinks: CFL
- * numbers mean on such clouds what they do on lattices. Of a hundred clouds moved by up to 0.45 RK4's limit, by their
- * eigenvalues, times this was 1.02 and more: that of lattices (tests/unit/solver_perturbed.c). At least 1. */
-static double crowding_of(const struct solver_stencil *stencil, const struct solver_cloud *cloud)
-{
-    size_t dim = (size_t)stencil->dim;
-    double most = 1.0;
-    for (size_t a = 0; a < stencil->graph.count; a++) {
-        double area = 0.0;
-        size_t shift = solver_stencil_shift(stencil, a);
-        for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
-            const double *C = solver_stencil_C(stencil, ab + shift);
-            double square = 0.0;
-            double along = 0.0;
-            for (size_t i = 0; i < dim; i++) {
-                double d = cloud->X[stencil->graph.neighbour[ab] * dim + i] - cloud->X[a * dim + i];
-                square += d * d;
-                along += d * C[i];
-            }
-            area += fmax(0.0, along / sqrt(square));
-        }
-        most = fmax(most, area * cloud->spacing / (2.0 * (double)dim * stencil->V[a]));
-    }
-    return most;
-}
-
-bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error)
+bool solver_upwind_create(const struct solver_body *body, size_t size, bool align, void **out,
+                          struct solver_error *error)
 {
     const struct solver_scene *scene = body->scene;
     const struct solver_stencil_builder *builder = solver_stencil_find(scene->stencil);
@@ -144,15 +89,12 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
     system->body = body;
     system->size = size;
     choose_terms(system, model->in[scene->dim - 1]);
-    if (!make_stencil(system, builder, error)) {
+    if (!make_stencil(system, builder, align, error)) {
         solver_upwind_destroy(system);
         return false;
     }
     bind_stencil(system);
-    system->meeting = body->stride != 0 ? meeting_of(system->stencil, body->constants) : 1.0;
-    if (scene->perturb > 0.0) {
-        system->meeting = fmax(system->meeting, crowding_of(system->stencil, body->cloud));
-    }
+    system->meeting = solver_upwind_step_share(system->stencil, body);
     *out = system;
     return true;
 }
@@ -160,7 +102,7 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, void **ou
 static bool create(const struct solver_body *body, void **out, struct solver_error *error)
 {
     void *made = NULL;
-    if (!solver_upwind_create(body, sizeof(struct solver_upwind_system), &made, error) || made == NULL) {
+    if (!solver_upwind_create(body, sizeof(struct solver_upwind_system), true, &made, error) || made == NULL) {
         return false;
     }
     struct solver_upwind_system *system = made;

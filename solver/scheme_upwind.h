@@ -28,8 +28,9 @@ struct solver_upwind_system {
     size_t size;    /* of the struct */
 };
 
-/* `size`: of the struct that starts with the system. */
-bool solver_upwind_create(const struct solver_body *body, size_t size, void **out, struct solver_error *error);
+/* `size`: of the struct that starts with the system. `align`: rows of the stencil may be sorted by axis. */
+bool solver_upwind_create(const struct solver_body *body, size_t size, bool align, void **out,
+                          struct solver_error *error);
 void solver_upwind_destroy(void *of);
 /* The others, as in the table of schemes. */
 struct solver_geometry solver_upwind_geometry(const void *of);

@@ -52,7 +52,7 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
     if (!fits(body, error)) {
         return false;
     }
-    if (!solver_upwind_create(body, sizeof(struct system), &made, error) || made == NULL) {
+    if (!solver_upwind_create(body, sizeof(struct system), true, &made, error) || made == NULL) {
         return false;
     }
     struct system *system = made;
@@ -62,6 +62,7 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
     system->work = (struct solver_upwind_single){.row = base->row,
                                                  .neighbour = base->neighbour,
                                                  .shared = base->shared,
+                                                 .along = base->along,
                                                  .narrow = base->narrow,
                                                  .unit = base->unit,
                                                  .row_sum = base->row_sum,

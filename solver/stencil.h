@@ -20,17 +20,19 @@ struct solver_stencil {
     double spacing; /* [m] */
     double finest;  /* [m] of a step by a CFL number: the spacing where it is smallest */
     struct solver_graph graph;
-    double *pair;       /* [records][dim + 1]: C_ab, then the face measure A_ab of the upwind dissipation,
-                               max(0, (C_ab - C_ba)/2 . N_ab) unless the builder knows better; one record, so that a
-                               pair is one place in memory */
-    size_t records;     /* pairs, unless rows are shared */
-    uint32_t *shared;   /* [count] record of the first pair of each row, where rows that are equal bit for bit are
-                           kept once; NULL: the pair's own number */
-    float *narrow;      /* [records][dim + 1] the same in units of `unit`, once the stencil is narrowed; then pair, and
-                           row_sum / unit, are those of the rounded numbers */
-    double unit;        /* [m^(dim-1)]; 1 until then, and row_sum is in its units */
-    double *transposed; /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
-    double *row_sum;    /* [count][dim] sum_b C_ab */
+    double *pair;     /* [records][dim + 1]: C_ab, then the face measure A_ab of the upwind dissipation,
+                             max(0, (C_ab - C_ba)/2 . N_ab) unless the builder knows better; one record, so that a
+                             pair is one place in memory */
+    size_t records;   /* pairs, unless rows are shared */
+    uint32_t *shared; /* [count] record of the first pair of each row, where rows that are equal bit for bit are
+                         kept once; NULL: the pair's own number */
+    float *narrow;    /* [records][dim + 1] the same in units of `unit`, once the stencil is narrowed; then pair, and
+                         row_sum / unit, are those of the rounded numbers */
+    double unit;      /* [m^(dim-1)]; 1 until then, and row_sum is in its units */
+    uint8_t *along;   /* [count][1, 2 or 4] how many pairs of each row lie along each axis, where all do, C_ab as well,
+                         and rows are sorted by axis; NULL: some lie along none, or nobody asked */
+    double *transposed;    /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
+    double *row_sum;       /* [count][dim] sum_b C_ab */
     double *least_squares; /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
                               (000_e9ec29e1bde7947d.txt eq. 37); NULL unless asked for */
     double *V;             /* [count] [m^dim] */
@@ -69,6 +71,10 @@ void solver_stencil_free(struct solver_stencil *stencil);
 bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const struct solver_cloud *cloud,
                                       struct solver_error *error);
 void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_cost_arrays *arrays);
+/* Sorts rows by axis if every pair lies along one, as on lattices of sbp2 and sbp4; else it leaves all as it is, and so
+ * where there are transposed pair vectors or least-squares weights. Neighbours are then ascending along each axis only:
+ * solver_graph_find does not find them. Before rows are shared and pairs narrowed; `cloud` is the stencil's. */
+bool solver_stencil_align(struct solver_stencil *stencil, const struct solver_cloud *cloud, struct solver_error *error);
 /* Keeps rows of pair vectors that are equal bit for bit once, where that saves three quarters of them, as on lattices
  * of sbp2 from a few hundred particles on; else it leaves all as it is. Before pairs are narrowed. */
 bool solver_stencil_share(struct solver_stencil *stencil, struct solver_error *error);

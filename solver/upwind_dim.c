@@ -1,5 +1,7 @@
 #include "solver/upwind.h"
 
+#include "solver/dim_aligned.h"
+#include "solver/dim_fetch.h"
 #include "solver/dim_fluxes.h"
 #include "solver/dim_pairs.h"
 #include "solver/dim_sums.h"
@@ -151,7 +153,9 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
     bool own = work->least_squares == NULL; /* the reconstruction takes the stencil's gradients */
     bool pressure = own && work->pressure_gradient != NULL;
     bool narrow = work->narrow != NULL;
-    if (pressure && work->stride != 0) { /* rare: not worth a loop each */
+    if (aligns_gradients(work)) {
+        aligned_gradients(work, begin, end);
+    } else if (pressure && work->stride != 0) { /* rare: not worth a loop each */
         gradients_with(work, begin, end, true, narrow, true);
     } else if (narrow && pressure) {
         gradients_with(work, begin, end, true, true, false);
@@ -168,32 +172,6 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
     for (size_t a = begin; work->P_gradient != NULL && a < end; a++) {
         stress_gradient(work, a, own ? work->pair : work->least_squares, own ? PAIR : DIM,
                         (real)(own ? 0.5 / work->V[a] : 1.0));
-    }
-}
-
-/* Neighbours lie all over memory, and the work on a pair is shorter than the way there: where that is beyond the
- * processor's own cache, what a neighbour brings is asked for so many pairs ahead; `last` is the pair up to which. */
-enum { AHEAD = 16, LINE = 64 / sizeof(real) };
-
-static inline __attribute__((always_inline)) void fetch(const struct solver_upwind *work, const real *slope,
-                                                        const struct pairs *pairs, size_t last)
-{
-    for (int g = 0; g < GROUP; g++) {
-        size_t ahead = pairs->ab[g] + AHEAD;
-        size_t b = work->neighbour[ahead < last ? ahead : last];
-        for (int i = 0; i < TENSOR; i += LINE) {
-            __builtin_prefetch(work->P + b * TENSOR + i);
-            __builtin_prefetch(slope + b * TENSOR + i);
-        }
-        if (IN_SINGLE) { /* half of them lie across two lines */
-            __builtin_prefetch(work->P + b * TENSOR + TENSOR - 1);
-            __builtin_prefetch(slope + b * TENSOR + TENSOR - 1);
-        }
-        if (IN_SINGLE && !work->frozen) {
-            __builtin_prefetch(work->x + b * LANES);
-        }
-        __builtin_prefetch(work->v + b * LANES);
-        __builtin_prefetch(work->X + b * LANES);
     }
 }
 
@@ -312,8 +290,12 @@ static inline __attribute__((always_inline)) void sum_pairs(const struct solver_
 }
 
 static inline __attribute__((always_inline)) void rates_with(const struct solver_upwind *work, size_t begin, size_t end,
-                                                             struct terms terms)
+                                                             struct terms terms, bool aligned)
 {
+    if (aligned) {
+        aligned_rates_with(work, begin, end, terms);
+        return;
+    }
     size_t last = work->row[end] > 0 ? work->row[end] - 1 : 0;
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
@@ -328,37 +310,43 @@ static inline __attribute__((always_inline)) void rates_with(const struct solver
 
 /* With linear reconstruction, on a stencil that is antisymmetric, of one material. */
 static inline __attribute__((always_inline)) void plain_rates(const struct solver_upwind *work, size_t begin,
-                                                              size_t end, bool narrow)
+                                                              size_t end, bool narrow, bool aligned)
 {
+    struct terms terms = {.reconstruct = true, .narrow = narrow};
     if (work->frozen && !work->evolves_J) {
-        rates_with(work, begin, end, (struct terms){.frozen = true, .reconstruct = true, .narrow = narrow});
+        terms.frozen = true;
+        rates_with(work, begin, end, terms, aligned);
     } else if (work->frozen) {
-        rates_with(work, begin, end,
-                   (struct terms){.frozen = true, .reconstruct = true, .volume = true, .narrow = narrow});
+        terms.frozen = true;
+        terms.volume = true;
+        rates_with(work, begin, end, terms, aligned);
     } else if (!work->evolves_J) {
-        rates_with(work, begin, end, (struct terms){.reconstruct = true, .narrow = narrow});
+        rates_with(work, begin, end, terms, aligned);
     } else {
-        rates_with(work, begin, end, (struct terms){.reconstruct = true, .volume = true, .narrow = narrow});
+        terms.volume = true;
+        rates_with(work, begin, end, terms, aligned);
     }
 }
 
 static void rates(const struct solver_upwind *work, size_t begin, size_t end)
 {
-    bool volume = work->evolves_J;
-    bool plain = work->reconstruct && work->transposed == NULL && work->stride == 0 && !(volume && work->whole_jump);
     struct terms terms = {.frozen = work->frozen,
                           .reconstruct = work->reconstruct,
                           .transposed = work->transposed != NULL,
-                          .volume = volume,
+                          .volume = work->evolves_J,
                           .whole = work->whole_jump,
                           .composite = work->stride != 0,
                           .narrow = work->narrow != NULL};
-    if (!plain) { /* rare: not worth a loop each */
-        rates_with(work, begin, end, terms);
+    if (!is_plain(work)) { /* rare: not worth a loop each */
+        rates_with(work, begin, end, terms, false);
+    } else if (aligns_rates(work) && terms.narrow) {
+        plain_rates(work, begin, end, true, true);
+    } else if (aligns_rates(work)) {
+        plain_rates(work, begin, end, false, true);
     } else if (terms.narrow) {
-        plain_rates(work, begin, end, true);
+        plain_rates(work, begin, end, true, false);
     } else {
-        plain_rates(work, begin, end, false);
+        plain_rates(work, begin, end, false, false);
     }
 }
 
