@@ -191,7 +191,7 @@ static bool build(struct solver_run *run, struct solver_error *error)
     }
     run->projection.held = run->projection.held || run->wall.count > 0;
     find_probes(run);
-    return initial_state(run, error);
+    return solver_run_make_waves(run, error) && initial_state(run, error);
 }
 
 bool solver_run_create(const struct solver_scene *scene, struct solver_run **out, struct solver_error *error)
@@ -231,6 +231,9 @@ void solver_run_free(struct solver_run *run)
         return;
     }
     solver_run_output_free(run);
+    for (int sweeps = 0; sweeps <= SOLVER_STEP_SWEEPS; sweeps++) {
+        solver_wave_free(&run->wave[sweeps]);
+    }
     solver_state_free(&run->state);
     solver_faces_free(&run->faces);
     solver_contact_free(&run->contact);
@@ -268,7 +271,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .pairs = geometry.pairs,
         .steps = run->step,
         .spacing = run->cloud->spacing,
-        .step = run->scheme->largest_step(run->system),
+        .step = solver_scheme_largest_step(run->scheme, run->system, run->cloud->count),
         .mass = mass,
         .setup_seconds = run->setup_seconds,
         .seconds = run->seconds,
@@ -295,6 +298,9 @@ void solver_run_cost(const struct solver_run *run, struct solver_cost_arrays *ar
     solver_projection_arrays(&run->projection, arrays);
     solver_cloud_arrays(run->cloud, arrays);
     solver_symmetry_arrays(run->cloud, arrays);
+    for (int sweeps = 0; sweeps <= SOLVER_STEP_SWEEPS; sweeps++) {
+        solver_wave_arrays(&run->wave[sweeps], arrays);
+    }
     solver_run_output_arrays(run, arrays);
     solver_cost_array(arrays, "run", "itself", run, 1, sizeof *run);
     terms->count = 0;

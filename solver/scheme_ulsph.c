@@ -271,12 +271,17 @@ static bool strain_initially(struct system *system, size_t a, struct solver_erro
     return true;
 }
 
-static void bind(void *of)
+static void bind(struct system *system)
 {
-    struct system *system = of;
     if (!(system->work.terms.xsph > 0.0)) {
         system->work.transport = system->work.v;
     }
+}
+
+static void turn(void *of, struct solver_state *state)
+{
+    solver_state_turn(state);
+    bind(of);
 }
 
 static bool start(void *of, struct solver_error *error)
@@ -355,11 +360,20 @@ static void refresh(void *of, size_t begin, size_t end)
     system->loops->volumes(&system->work, begin, end);
 }
 
-/* As eq. 26, with the p-wave's speed, the fastest there is, in place of sqrt(K / rho). */
-static double largest_step(const void *of)
+/* The p-wave's speed, that of all particles. */
+static double fastest(const void *of, size_t begin, size_t end)
 {
     const struct system *system = of;
-    return system->body->scene->cfl * system->work.h / system->fastest;
+    (void)begin;
+    (void)end;
+    return system->fastest;
+}
+
+/* As eq. 26, with the p-wave's speed, the fastest there is, in place of sqrt(K / rho). */
+static double largest_step(const void *of, double speed)
+{
+    const struct system *system = of;
+    return system->body->scene->cfl * system->work.h / speed;
 }
 
 static size_t first_broken(const void *of, size_t begin, size_t end)
@@ -452,10 +466,11 @@ const struct solver_scheme solver_scheme_ulsph = {
     .fields = fields,
     .arrays = arrays,
     .terms = terms,
-    .bind = bind,
+    .turn = turn,
     .start = start,
     .evaluate = evaluate,
     .refresh = refresh,
+    .fastest = fastest,
     .largest_step = largest_step,
     .first_broken = first_broken,
     .complaint = complaint,
