@@ -88,14 +88,25 @@ static void renumber(struct solver_cloud *cloud, const struct ordered *order, ui
     }
 }
 
-/* The axes from the one along which places reach least to that along which they reach farthest. */
-static void rank_axes(size_t count, uint32_t (*place)[3], unsigned axes[3])
+static bool in_wall(const struct solver_cloud *cloud, size_t a)
 {
-    uint32_t reach[3] = {0};
-    for (size_t a = 0; a < count; a++) {
-        for (unsigned axis = 0; axis < 3; axis++) {
-            reach[axis] = place[a][axis] > reach[axis] ? place[a][axis] : reach[axis];
+    return cloud->tags[a] >> SOLVER_BEYOND_FACE != 0;
+}
+
+/* The axes from the one along which the body is shortest to that along which it is longest, in places. */
+static void rank_axes(const struct solver_cloud *cloud, uint32_t (*place)[3], unsigned axes[3])
+{
+    uint32_t least[3] = {UINT32_MAX, UINT32_MAX, UINT32_MAX};
+    uint32_t most[3] = {0};
+    uint32_t reach[3];
+    for (size_t a = 0; a < cloud->count; a++) {
+        for (unsigned axis = 0; !in_wall(cloud, a) && axis < 3; axis++) {
+            least[axis] = place[a][axis] < least[axis] ? place[a][axis] : least[axis];
+            most[axis] = place[a][axis] > most[axis] ? place[a][axis] : most[axis];
         }
+    }
+    for (unsigned axis = 0; axis < 3; axis++) {
+        reach[axis] = most[axis] - least[axis];
     }
     for (unsigned axis = 0; axis < 3; axis++) {
         unsigned rank = 0;
@@ -124,10 +135,10 @@ bool cloud_order(struct solver_cloud *cloud, uint32_t (*place)[3], struct solver
     bool ok = solver_alloc((void **)&order, count, sizeof *order, "order of particles", error) &&
               solver_alloc((void **)&scratch, count, WIDEST, "order of particles", error);
     unsigned axes[3];
-    rank_axes(count, place, axes);
+    rank_axes(cloud, place, axes);
     if (ok) {
         for (size_t a = 0; a < count; a++) {
-            bool wall = cloud->tags[a] >> SOLVER_BEYOND_FACE != 0;
+            bool wall = in_wall(cloud, a);
             order[a] = (struct ordered){(wall ? (uint64_t)1 << 63 : 0) | row_code(place[a], axes), (uint32_t)a};
             cloud->wall_count += wall;
         }
