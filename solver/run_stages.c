@@ -268,7 +268,7 @@ static void update(struct sweeping *wave, int s, size_t begin, size_t end)
     if (wave->look && s + 1 == run->integrator->stages) {
         look_at(wave, at.begin, at.end);
     }
-    if (!run->acts_on_state) {
+    if (!run->acts_on_state && run->faces.constraint_count > 0) {
         solver_faces_hold(&run->faces, time_after(run, s, wave->dt), solver_state_v(state), at.begin, at.end);
     }
 }

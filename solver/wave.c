@@ -1,19 +1,12 @@
 #include "solver/wave.h"
 
 #include "solver/memory.h"
+#include "solver/pieces.h"
 
 #include <stdlib.h>
 
-/* Particles that go together: few, since a piece waits for all of its neighbours, and the thicker those are the longer,
- * but enough that calls do not count. */
-enum { PIECE = 64 };
 /* Pieces that begin together. */
-enum { BATCH = 32 };
-
-static size_t pieces_of(size_t count)
-{
-    return (count + PIECE - 1) / PIECE;
-}
+enum { BATCH = 16 };
 
 /* What is needed to find the order. */
 struct plan {
@@ -40,10 +33,10 @@ static void free_plan(struct plan *plan)
  * mark[q] is the last piece, plus one, that has found q. */
 static size_t find_beside(struct solver_wave_graph graph, size_t piece, size_t count, size_t *mark, uint32_t *beside)
 {
-    size_t end = (piece + 1) * PIECE < count ? (piece + 1) * PIECE : count;
+    size_t end = (piece + 1) * SOLVER_PIECE < count ? (piece + 1) * SOLVER_PIECE : count;
     size_t found = 0;
-    for (size_t ab = graph.row[piece * PIECE]; ab < graph.row[end]; ab++) {
-        size_t other = graph.neighbour[ab] / PIECE;
+    for (size_t ab = graph.row[piece * SOLVER_PIECE]; ab < graph.row[end]; ab++) {
+        size_t other = graph.neighbour[ab] / SOLVER_PIECE;
         if (other == piece || mark[other] == piece + 1) {
             continue;
         }
@@ -177,7 +170,7 @@ static void order_chunk(struct plan *plan, size_t *first, bool together)
 bool solver_wave_create(struct solver_wave *wave, size_t count, struct solver_wave_graph graph, int sweeps, int threads,
                         struct solver_error *error)
 {
-    struct plan plan = {.pieces = pieces_of(count), .wave = wave};
+    struct plan plan = {.pieces = solver_pieces(count), .wave = wave};
     size_t of_sweeps = (size_t)sweeps;
     *wave = (struct solver_wave){.sweeps = sweeps, .chunks = threads, .count = count};
     bool ok =
@@ -209,13 +202,13 @@ void solver_wave_free(struct solver_wave *wave)
 
 bool solver_wave_follows(const struct solver_wave *wave)
 {
-    return wave->sweeps > 0 && 2 * wave->in_round > pieces_of(wave->count) * (size_t)wave->sweeps;
+    return wave->sweeps > 0 && 2 * wave->in_round > solver_pieces(wave->count) * (size_t)wave->sweeps;
 }
 
 void solver_wave_arrays(const struct solver_wave *wave, struct solver_cost_arrays *arrays)
 {
     size_t sweeps = (size_t)wave->sweeps;
-    solver_cost_array(arrays, "run", "order of sweeps", wave->task, pieces_of(wave->count) * sweeps,
+    solver_cost_array(arrays, "run", "order of sweeps", wave->task, solver_pieces(wave->count) * sweeps,
                       sizeof *wave->task);
     solver_cost_array(arrays, "run", "rounds of sweeps", wave->first, (size_t)wave->chunks * sweeps + 1,
                       sizeof *wave->first);
@@ -224,7 +217,7 @@ void solver_wave_arrays(const struct solver_wave *wave, struct solver_cost_array
 void solver_wave_run(const struct solver_wave *wave, solver_wave_sweep *sweep, void *context)
 {
     uint32_t sweeps = (uint32_t)wave->sweeps;
-    size_t tasks = pieces_of(wave->count) * sweeps;
+    size_t tasks = solver_pieces(wave->count) * sweeps;
     int rounds = wave->in_round < tasks ? wave->sweeps : 1;
 #pragma omp parallel
     for (int round = 0; round < rounds; round++) {
@@ -232,9 +225,9 @@ void solver_wave_run(const struct solver_wave *wave, solver_wave_sweep *sweep, v
         for (size_t chunk = 0; chunk < (size_t)wave->chunks; chunk++) {
             const size_t *first = wave->first + chunk * sweeps + (size_t)round;
             for (size_t i = first[0]; i < first[1]; i++) {
-                size_t begin = (size_t)(wave->task[i] / sweeps) * PIECE;
+                size_t begin = (size_t)(wave->task[i] / sweeps) * SOLVER_PIECE;
                 sweep(context, (int)(wave->task[i] % sweeps), begin,
-                      begin + PIECE < wave->count ? begin + PIECE : wave->count);
+                      begin + SOLVER_PIECE < wave->count ? begin + SOLVER_PIECE : wave->count);
             }
         }
     }

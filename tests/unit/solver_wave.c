@@ -1,5 +1,6 @@
 /* Waves of sweeps: every sweep of every piece goes once, after its neighbours are through the one before, and before
  * any of them has written over what it reads. */
+#include "solver/pieces.h"
 #include "solver/wave.h"
 #include "tests/unit/unit.h"
 
@@ -128,7 +129,7 @@ static void test_front(void)
     struct lattice lattice = make(200, false);
     struct solver_wave wave = expect(&lattice, 6, 1);
     CU_ASSERT_EQUAL(lattice.most, 6);
-    CU_ASSERT_EQUAL(wave.in_round, (lattice.count + 63) / 64 * 6);
+    CU_ASSERT_EQUAL(wave.in_round, solver_pieces(lattice.count) * 6);
     solver_wave_free(&wave);
     release(&lattice);
 }
@@ -137,11 +138,11 @@ static void test_front(void)
 static void test_one_sided(void)
 {
     struct lattice lattice = make(40, false);
-    for (size_t a = 0; a <= 64; a++) { /* a piece lists nobody */
+    for (size_t a = 0; a <= SOLVER_PIECE; a++) { /* a piece lists nobody */
         lattice.row[a] = 0;
     }
     struct solver_wave wave = expect(&lattice, 3, 2);
-    CU_ASSERT_EQUAL(wave.in_round, (lattice.count + 63) / 64);
+    CU_ASSERT_EQUAL(wave.in_round, solver_pieces(lattice.count));
     solver_wave_free(&wave);
     release(&lattice);
 }
