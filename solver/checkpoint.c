@@ -233,6 +233,7 @@ bool solver_checkpoint_restore(struct solver_checkpoint *checkpoint, struct solv
     struct solver_keeper *keeper = &checkpoint->keeper;
     struct solver_error why = {.code = SOLVER_OK};
     keeper->at = checkpoint->state;
+    run->fastest = 0.0;
     if (!keep_state(keeper, run, &why)) {
         *error = why;
         return why.code != SOLVER_BROKE_DOWN ? false : solver_keep_refuse(keeper, error, "%.400s", why.text);

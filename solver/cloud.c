@@ -89,6 +89,44 @@ static void renumber(struct solver_cloud *cloud, const struct ordered *order, ui
     }
 }
 
+static bool in_wall(const struct solver_cloud *cloud, size_t a)
+{
+    return cloud->tags[a] >> SOLVER_BEYOND_FACE != 0;
+}
+
+/* The axes from the one along which the body is shortest to that along which it is longest, in places. */
+static void rank_axes(const struct solver_cloud *cloud, uint32_t (*place)[3], unsigned axes[3])
+{
+    uint32_t least[3] = {UINT32_MAX, UINT32_MAX, UINT32_MAX};
+    uint32_t most[3] = {0};
+    uint32_t reach[3];
+    for (size_t a = 0; a < cloud->count; a++) {
+        for (unsigned axis = 0; !in_wall(cloud, a) && axis < 3; axis++) {
+            least[axis] = place[a][axis] < least[axis] ? place[a][axis] : least[axis];
+            most[axis] = place[a][axis] > most[axis] ? place[a][axis] : most[axis];
+        }
+    }
+    for (unsigned axis = 0; axis < 3; axis++) {
+        reach[axis] = most[axis] - least[axis];
+    }
+    for (unsigned axis = 0; axis < 3; axis++) {
+        unsigned rank = 0;
+        for (unsigned other = 0; other < 3; other++) {
+            rank += reach[other] < reach[axis] || (reach[other] == reach[axis] && other < axis);
+        }
+        axes[rank] = axis;
+    }
+}
+
+/* Row by row, plane by plane along the longest axis: what lies between a particle and its neighbours is no more than
+ * one of the smallest planes, so that sweeps can follow one another closely (wave.h), and neighbours in other rows and
+ * planes are read as streams of their own. */
+static uint64_t row_code(const uint32_t place[3], const unsigned axes[3])
+{
+    return (uint64_t)place[axes[2]] << 2 * CLOUD_GRID_BITS | (uint64_t)place[axes[1]] << CLOUD_GRID_BITS |
+           place[axes[0]];
+}
+
 bool cloud_order(struct solver_cloud *cloud, uint32_t (*place)[3], struct solver_error *error)
 {
     enum { WIDEST = 3 * sizeof(double) };
@@ -97,10 +135,12 @@ bool cloud_order(struct solver_cloud *cloud, uint32_t (*place)[3], struct solver
     unsigned char *scratch = NULL;
     bool ok = solver_alloc((void **)&order, count, sizeof *order, "order of particles", error) &&
               solver_alloc((void **)&scratch, count, WIDEST, "order of particles", error);
+    unsigned axes[3];
+    rank_axes(cloud, place, axes);
     if (ok) {
         for (size_t a = 0; a < count; a++) {
-            bool wall = cloud->tags[a] >> SOLVER_BEYOND_FACE != 0;
-            order[a] = (struct ordered){(wall ? (uint64_t)1 << 63 : 0) | cloud_morton(place[a]), (uint32_t)a};
+            bool wall = in_wall(cloud, a);
+            order[a] = (struct ordered){(wall ? (uint64_t)1 << 63 : 0) | row_code(place[a], axes), (uint32_t)a};
             cloud->wall_count += wall;
         }
         qsort(order, count, sizeof *order, by_code);

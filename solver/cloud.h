@@ -43,7 +43,7 @@ struct solver_cloud_quality {
 
 struct solver_cloud {
     int dim;
-    size_t count;            /* particles, ordered along a space-filling curve; those of walls come after the others */
+    size_t count;            /* particles, row by row and plane by plane; those of walls come after the others */
     size_t wall_count;       /* of walls: outside the body, with volumes of their own, only there to hold or move it */
     double spacing;          /* [m]; of a graded lattice the mean */
     double *X;               /* [count][dim] [m] */
@@ -86,7 +86,7 @@ struct solver_box {
  * is moved. */
 bool solver_cloud_box(const struct solver_box *box, struct solver_cloud **cloud, struct solver_error *error);
 /* Several bodies, in the order of their shapes; all with particles in the centres of cells and without walls, ordered
- * together along one curve. SOLVER_BAD_INPUT where a shape is not a whole number of spacings thick, or two overlap. */
+ * together. SOLVER_BAD_INPUT where a shape is not a whole number of spacings thick, or two overlap. */
 bool solver_cloud_bodies(int dim, const struct solver_shape *shape, size_t shape_count, double spacing,
                          struct solver_cloud **cloud, struct solver_error *error);
 /* A disc, a ball or a cylinder, with particles on its surface, in concentric shells a spacing apart; around a shell

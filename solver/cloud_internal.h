@@ -11,13 +11,13 @@ struct cloud_size {
     size_t particles, cells;
 };
 
-enum { CLOUD_GRID_BITS = 21 }; /* of a place's index along an axis, in the code of the curve */
+enum { CLOUD_GRID_BITS = 21 }; /* of a place's index along an axis, in codes of all three */
 
 /* Position along a Z-order (Morton) curve of a place on a grid. */
 uint64_t cloud_morton(const uint32_t place[3]);
 /* Positions, volumes, tags and cells for that many, zeroed. */
 bool cloud_reserve(struct solver_cloud *cloud, struct cloud_size size, struct solver_error *error);
-/* Orders the particles along the curve by their places [count][3], those tagged as beyond a face last, and counts
+/* Orders the particles row by row by their places [count][3], those tagged as beyond a face last, and counts
  * these. Particles at one place stay in the order they have. Cells follow, and so do the places. */
 bool cloud_order(struct solver_cloud *cloud, uint32_t (*place)[3], struct solver_error *error);
 

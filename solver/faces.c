@@ -204,6 +204,20 @@ static bool prescribe(const struct solver_constraint *constraint, const struct s
     return true;
 }
 
+/* Gives the particle the velocity that is prescribed, and its image's that of the image. */
+static void set_velocity(const struct solver_faces *faces, const struct solver_constraint *constraint, double t,
+                         const struct solver_vectors *v, const double velocity[3], const double image_velocity[3])
+{
+    bool mirrored = constraint->image != constraint->particle;
+    for (size_t i = 0; i < (size_t)faces->dim; i++) {
+        bool held = solver_held_at(&constraint->axis[i], t);
+        double of_image = solver_vectors_get(v, constraint->image, i);
+        double own = solver_vectors_get(v, constraint->particle, i);
+        double free_part = mirrored ? constraint->parity * (of_image - image_velocity[i]) : 0.0;
+        solver_vectors_set(v, constraint->particle, i, free_part + (held ? 0.0 : own) + velocity[i]);
+    }
+}
+
 bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t,
                             struct solver_vectors v, struct solver_error *error)
 {
@@ -216,16 +230,47 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
             (mirrored && !prescribe(constraint, body, constraint->image, t, image_velocity, error))) {
             return false;
         }
-        for (size_t i = 0; i < (size_t)faces->dim; i++) {
-            const struct solver_held *axis = &constraint->axis[i];
-            bool held = solver_held_at(axis, t);
-            double of_image = solver_vectors_get(&v, constraint->image, i);
-            double own = solver_vectors_get(&v, constraint->particle, i);
-            double free_part = mirrored ? constraint->parity * (of_image - image_velocity[i]) : 0.0;
-            solver_vectors_set(&v, constraint->particle, i, free_part + (held ? 0.0 : own) + velocity[i]);
-        }
+        set_velocity(faces, constraint, t, &v, velocity, image_velocity);
     }
     return true;
+}
+
+bool solver_faces_only_hold(const struct solver_faces *faces)
+{
+    bool only = true;
+    for (size_t c = 0; c < faces->constraint_count; c++) {
+        const struct solver_constraint *constraint = &faces->constraint[c];
+        only = only && constraint->image == constraint->particle;
+        for (size_t i = 0; i < (size_t)faces->dim; i++) {
+            only = only && constraint->axis[i].motion < 0;
+        }
+    }
+    return only;
+}
+
+/* The first constraint of a particle not below `particle`. */
+static size_t constraint_from(const struct solver_faces *faces, size_t particle)
+{
+    size_t low = 0;
+    size_t high = faces->constraint_count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (faces->constraint[middle].particle < particle) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+void solver_faces_hold(const struct solver_faces *faces, double t, struct solver_vectors v, size_t begin, size_t end)
+{
+    const double still[3] = {0.0};
+    size_t last = constraint_from(faces, end);
+    for (size_t c = constraint_from(faces, begin); c < last; c++) {
+        set_velocity(faces, &faces->constraint[c], t, &v, still, still);
+    }
 }
 
 /* Asks for the body force at time t, unless it is that of the last time. Formulas of the scene share an interpreter;

@@ -50,6 +50,10 @@ void solver_faces_terms(const struct solver_faces *faces, const struct solver_bo
 /* Enforces the constraints on v at time t. */
 bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t,
                             struct solver_vectors v, struct solver_error *error);
+/* Whether they do no more than hold particles along axes; and what they then do to particles [begin, end), in a thread.
+ */
+bool solver_faces_only_hold(const struct solver_faces *faces);
+void solver_faces_hold(const struct solver_faces *faces, double t, struct solver_vectors v, size_t begin, size_t end);
 /* Adds tractions and body forces at time t, per unit of reference area and volume, to v_rate; *power [W] becomes their
  * power at velocities v. */
 bool solver_faces_load(struct solver_faces *faces, const struct solver_body *body,

@@ -9,6 +9,12 @@
 #include "solver/scheme.h"
 #include "solver/state.h"
 #include "solver/wall.h"
+#include "solver/wave.h"
+
+/* Of a stage: three, which go as one wave with those before and after, unless something that acts on all particles at
+ * once cuts in. */
+enum solver_sweep { SOLVER_SWEEP_GRADIENTS, SOLVER_SWEEP_RATES, SOLVER_SWEEP_UPDATE, SOLVER_STAGE_SWEEPS };
+enum { SOLVER_STEP_SWEEPS = SOLVER_STAGES * SOLVER_STAGE_SWEEPS };
 
 struct solver_run {
     const struct solver_scene *scene;
@@ -24,7 +30,10 @@ struct solver_run {
     struct solver_wall wall;
     struct solver_projection projection;
     struct solver_state state;
-    double time, external, numerical; /* [s]; [J], the last where the scene's balance asks */
+    struct solver_wave wave[SOLVER_STEP_SWEEPS + 1]; /* by sweeps; those that the scene's steps take */
+    bool acts_on_rates, acts_on_state;               /* something does, on all at once, and ends a wave */
+    double fastest;                                  /* [m/s] wave of the present state; 0: not known */
+    double time, external, numerical;                /* [s]; [J], the last where the scene's balance asks */
     size_t step;
     int threads;
     double setup_seconds, seconds;
@@ -40,6 +49,23 @@ bool solver_run_cloud(struct solver_run *run, struct solver_error *error);
 double solver_run_clock(void);
 /* What follows from a changed state. */
 void solver_run_refresh(struct solver_run *run);
+
+/* Work over a step [J]. */
+struct solver_work {
+    double external, numerical; /* of the loads; taken by the scheme's dissipation, where the scene's balance asks */
+};
+
+/* How many sweeps of a step, which has SOLVER_STAGE_SWEEPS a stage, go as one wave, from `first` on. */
+int solver_run_wave(const struct solver_run *run, int first);
+/* The waves of a step, which have been found once; and what they take. */
+bool solver_run_make_waves(struct solver_run *run, struct solver_error *error);
+/* All stages of a step. After a failure the state is that of the start. *whole: no particle is broken; else it is not
+ * known. */
+bool solver_run_stages(struct solver_run *run, double dt, struct solver_work *work, bool *whole,
+                       struct solver_error *error);
+/* The state at the start of the step again: after a stage that failed, or a step that broke a particle. */
+void solver_run_take_back(struct solver_run *run);
+
 /* The linear momentum per unit reference volume over the velocity: the density rho0 [kg/m^3] of particle a. */
 static inline double solver_run_density(const struct solver_run *run, size_t a)
 {

@@ -80,13 +80,20 @@ struct solver_scheme {
     void (*terms)(const void *system, struct solver_cost_terms *terms);
     /* Fills the table of fields (state.h) and returns its rows. */
     size_t (*fields)(void *system, struct solver_field table[SOLVER_STATE_FIELDS]);
-    /* What else holds addresses of evolved fields: they have been written anew. NULL: nothing. */
-    void (*bind)(void *system);
+    /* Turns the state (state.h), and what else holds addresses of evolved fields. NULL: nothing does. */
+    void (*turn)(void *system, struct solver_state *state);
     /* The other fields of the initial state; v and x are there. */
     bool (*start)(void *system, struct solver_error *error);
     /* Once before each step of size dt; NULL: nothing to do. What it changes of the state is kept if the step fails. */
     bool (*prepare)(void *system, double dt, struct solver_error *error);
-    /* All rates of the present state at time t, in a step of size dt; without tractions and body forces. */
+    /* All rates of the present state, without tractions and body forces, in two sweeps over particles [begin, end), in
+     * a thread: the second may read what the first has left at neighbours, neither what it leaves there itself.
+     * Neighbours are those of a graph at rest. `start`: of the state at the start of the step, where that has been
+     * turned. */
+    void (*gradients)(const void *system, bool start, size_t begin, size_t end);
+    void (*rates)(const void *system, bool start, size_t begin, size_t end);
+    const struct solver_graph *(*graph)(const void *system);
+    /* The same of all particles at time t, in a step of size dt, of a scheme that has no such sweeps; else NULL. */
     bool (*evaluate)(void *system, double t, double dt, struct solver_error *error);
     /* After a stage's update of the state to time t and the constraints of faces; NULL: nothing to do. Changes
      * velocities and what else the stage left open, and what the integrator sums of it; what follows from that is
@@ -97,8 +104,10 @@ struct solver_scheme {
     double (*iterations)(const void *system);
     /* What follows from a changed state, particle by particle. Particles [begin, end); runs in a thread. */
     void (*refresh)(void *system, size_t begin, size_t end);
-    /* The longest step [s] that the scene's CFL number allows. */
-    double (*largest_step)(const void *system);
+    /* Of the waves in particles [begin, end) the fastest [m/s]; in a thread. The longest step [s] that the scene's CFL
+     * number allows where none is faster. */
+    double (*fastest)(const void *system, size_t begin, size_t end);
+    double (*largest_step)(const void *system, double fastest);
     /* First particle in [begin, end) whose state is broken (not finite, or without volume), else end. In a thread. */
     size_t (*first_broken)(const void *system, size_t begin, size_t end);
     /* Of such a particle, whose velocity is finite: what is broken. */
@@ -115,6 +124,12 @@ struct solver_scheme {
     /* What outlives a step and is not a field, for checkpoints (keep.h); NULL: there is nothing. */
     bool (*keep)(void *system, struct solver_keeper *keeper, struct solver_error *error);
 };
+
+/* All rates of the present state, at time t in a step of size dt. */
+bool solver_scheme_evaluate(const struct solver_scheme *scheme, void *system, size_t count, double t, double dt,
+                            struct solver_error *error);
+/* The longest step [s] that the scene's CFL number allows. */
+double solver_scheme_largest_step(const struct solver_scheme *scheme, const void *system, size_t count);
 
 /* The table, ends with NULL. */
 const struct solver_scheme *const *solver_schemes(void);

@@ -130,16 +130,16 @@ static bool make_weights(struct system *system, bool harmonic, bool corrected, s
     return done;
 }
 
-static void gather(const void *of, size_t begin, size_t end)
+static void gather(const void *of, const struct solver_upwind *work, size_t begin, size_t end)
 {
     const struct system *system = of;
-    system->loops->gather(&system->base.work, &system->jst, begin, end);
+    system->loops->gather(work, &system->jst, begin, end);
 }
 
-static void rates(const void *of, size_t begin, size_t end)
+static void rates(const void *of, const struct solver_upwind *work, size_t begin, size_t end)
 {
     const struct system *system = of;
-    system->loops->rates(&system->base.work, &system->jst, begin, end);
+    system->loops->rates(work, &system->jst, begin, end);
 }
 
 static void rate_terms(const void *of, struct solver_cost_terms *terms)

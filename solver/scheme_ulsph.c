@@ -284,15 +284,14 @@ static bool strain_initially(struct system *system, size_t a, struct solver_erro
     return true;
 }
 
-static void bind(void *of)
+static void bind(struct system *system)
 {
-    struct system *system = of;
     if (!(system->work.terms.xsph > 0.0)) {
         system->work.transport = system->work.v;
     }
 }
 
-/* As of the total-Lagrangian scheme (scheme_upwind.c): a particle held by its neighbours alone swings with omega^2 = k
+/* As of the total-Lagrangian scheme (upwind_step.c): a particle held by its neighbours alone swings with omega^2 = k
  * / m, k = sum_b V_b (lambda + 2 mu)_b |V_a s L_b r|^2, where kernels reach from a stiff material to a light one faster
  * than waves run in either. On a line of one material omega is c / sqrt(2) over the spacing for neighbours next to one
  * another, where the fastest mode has c. Returns the square root of the largest half mean modulus of neighbours over a
@@ -321,6 +320,12 @@ static double meeting_of(struct system *system)
         meeting = weights > 0.0 ? fmax(meeting, sum / (weights * constants_of(system, a)->rho)) : meeting;
     }
     return fmax(1.0, sqrt(0.5 * meeting) / system->fastest);
+}
+
+static void turn(void *of, struct solver_state *state)
+{
+    solver_state_turn(state);
+    bind(of);
 }
 
 static bool start(void *of, struct solver_error *error)
@@ -403,11 +408,20 @@ static void refresh(void *of, size_t begin, size_t end)
     system->loops->volumes(&system->work, begin, end);
 }
 
-/* As eq. 26, with the p-wave's speed, the fastest there is, in place of sqrt(K / rho); where materials meet less. */
-static double largest_step(const void *of)
+/* The p-wave's speed, that of all particles. */
+static double fastest(const void *of, size_t begin, size_t end)
 {
     const struct system *system = of;
-    return system->body->scene->cfl * system->work.h / (system->fastest * system->meeting);
+    (void)begin;
+    (void)end;
+    return system->fastest;
+}
+
+/* As eq. 26, with the p-wave's speed, the fastest there is, in place of sqrt(K / rho); where materials meet less. */
+static double largest_step(const void *of, double speed)
+{
+    const struct system *system = of;
+    return system->body->scene->cfl * system->work.h / (speed * system->meeting);
 }
 
 static size_t first_broken(const void *of, size_t begin, size_t end)
@@ -500,10 +514,11 @@ const struct solver_scheme solver_scheme_ulsph = {
     .fields = fields,
     .arrays = arrays,
     .terms = terms,
-    .bind = bind,
+    .turn = turn,
     .start = start,
     .evaluate = evaluate,
     .refresh = refresh,
+    .fastest = fastest,
     .largest_step = largest_step,
     .first_broken = first_broken,
     .complaint = complaint,

@@ -238,13 +238,19 @@ static void discrete_F(const struct solver_upwind_system *system, size_t a, doub
 }
 
 /* H, where it is evolved and stands in the equation of J, is its cofactor. */
-void solver_upwind_bind(void *of)
+static void bind_cofactor(struct solver_upwind *work)
 {
-    struct solver_upwind_system *system = of;
-    struct solver_upwind *work = &system->work;
     if (work->evolves_H && !work->frozen) {
         work->cofactor = work->H;
     }
+}
+
+void solver_upwind_turn(void *of, struct solver_state *state)
+{
+    struct solver_upwind_system *system = of;
+    system->at_start = system->work;
+    solver_state_turn(state);
+    bind_cofactor(&system->work);
 }
 
 bool solver_upwind_start(void *of, struct solver_error *error)
@@ -255,7 +261,7 @@ bool solver_upwind_start(void *of, struct solver_error *error)
     const struct solver_cloud *cloud = system->body->cloud;
     size_t dim = (size_t)cloud->dim;
     size_t lanes = system->loops->lanes;
-    solver_upwind_bind(system);
+    bind_cofactor(work);
     for (size_t a = 0; a < cloud->count; a++) {
         double X[3] = {0};
         double F[9];
@@ -309,35 +315,36 @@ bool solver_upwind_prepare(void *of, double dt, struct solver_error *error)
     return true;
 }
 
-bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *error)
+static const struct solver_upwind *work_of(const struct solver_upwind_system *system, bool start)
+{
+    return start ? &system->at_start : &system->work;
+}
+
+void solver_upwind_gradients(const void *of, bool start, size_t begin, size_t end)
 {
     const struct solver_upwind_system *system = of;
-    const struct solver_upwind *work = &system->work;
-    size_t count = system->body->cloud->count;
-    (void)t;
-    (void)dt;
-    (void)error;
-#pragma omp parallel
-    {
-#pragma omp for schedule(static)
-        for (size_t piece = 0; piece < solver_pieces(count); piece++) {
-            struct solver_piece at = solver_piece_at(piece, count);
-            system->loops->gradients(work, at.begin, at.end);
-            if (system->gather != NULL) {
-                system->gather(system, at.begin, at.end);
-            }
-        }
-#pragma omp for schedule(static)
-        for (size_t piece = 0; piece < solver_pieces(count); piece++) {
-            struct solver_piece at = solver_piece_at(piece, count);
-            if (system->rates != NULL) {
-                system->rates(system, at.begin, at.end);
-            } else {
-                system->loops->rates(work, at.begin, at.end);
-            }
-        }
+    const struct solver_upwind *work = work_of(system, start);
+    system->loops->gradients(work, begin, end);
+    if (system->gather != NULL) {
+        system->gather(system, work, begin, end);
     }
-    return true;
+}
+
+void solver_upwind_rates(const void *of, bool start, size_t begin, size_t end)
+{
+    const struct solver_upwind_system *system = of;
+    const struct solver_upwind *work = work_of(system, start);
+    if (system->rates != NULL) {
+        system->rates(system, work, begin, end);
+    } else {
+        system->loops->rates(work, begin, end);
+    }
+}
+
+const struct solver_graph *solver_upwind_graph(const void *of)
+{
+    const struct solver_upwind_system *system = of;
+    return &system->stencil->graph;
 }
 
 static bool correct(void *of, const struct solver_state *state, const struct solver_integrator *integrator, int stage,
@@ -378,23 +385,20 @@ void solver_upwind_refresh(void *of, size_t begin, size_t end)
     system->loops->stresses(&system->work, begin, end);
 }
 
-/* The step that the CFL number allows (eq. 41), by the smallest spacing, less where materials meet or particles crowd.
- */
-double solver_upwind_largest_step(const void *of)
+double solver_upwind_fastest(const void *of, size_t begin, size_t end)
 {
     const struct solver_upwind_system *system = of;
     const struct solver_upwind *work = &system->work;
-    size_t count = system->body->cloud->count;
-    double fastest = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : fastest)
-    for (size_t piece = 0; piece < solver_pieces(count); piece++) {
-        struct solver_piece at = solver_piece_at(piece, count);
-        double here =
-            work->flown != NULL
-                ? work->material->flow->fastest(work->constants, work->stride, at.begin, at.end, work->F, work->flown)
-                : work->material->fastest(work->constants, work->stride, at.begin, at.end, work->F);
-        fastest = fmax(fastest, here);
-    }
+    return work->flown != NULL
+               ? work->material->flow->fastest(work->constants, work->stride, begin, end, work->F, work->flown)
+               : work->material->fastest(work->constants, work->stride, begin, end, work->F);
+}
+
+/* The step that the CFL number allows (eq. 41), by the smallest spacing, less where materials meet or particles crowd.
+ */
+double solver_upwind_largest_step(const void *of, double fastest)
+{
+    const struct solver_upwind_system *system = of;
     return system->body->scene->cfl * system->stencil->finest / (fastest * system->meeting);
 }
 

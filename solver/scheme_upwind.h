@@ -16,12 +16,13 @@ struct solver_upwind_system {
     struct solver_stencil *stencil;
     struct solver_stencil_residuals residuals;
     struct solver_upwind work;
+    struct solver_upwind at_start;    /* the same with the state at the start of the step, once that has been turned */
     struct solver_pressure *pressure; /* NULL: J is evolved, or none */
     /* Of a scheme whose dissipation is not Riemann's, for particles [begin, end), in a thread; else NULL. The first
      * follows the gradients and may read the state of neighbours, the second stands for the rates of upwind.h and may
-     * read what the first has left at neighbours. */
-    void (*gather)(const void *system, size_t begin, size_t end);
-    void (*rates)(const void *system, size_t begin, size_t end);
+     * read what the first has left at neighbours. Of the state of `work`. */
+    void (*gather)(const void *system, const struct solver_upwind *work, size_t begin, size_t end);
+    void (*rates)(const void *system, const struct solver_upwind *work, size_t begin, size_t end);
     /* The operations of both, in place of those of Riemann's dissipation and of the rates. */
     void (*terms)(const void *system, struct solver_cost_terms *terms);
     double meeting; /* by how much what couples where materials meet, or particles crowd, is faster, or 1 */
@@ -37,12 +38,15 @@ struct solver_geometry solver_upwind_geometry(const void *of);
 size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS]);
 void solver_upwind_arrays(const void *of, struct solver_cost_arrays *arrays);
 void solver_upwind_terms(const void *of, struct solver_cost_terms *terms);
-void solver_upwind_bind(void *of);
+void solver_upwind_turn(void *of, struct solver_state *state);
 bool solver_upwind_start(void *of, struct solver_error *error);
 bool solver_upwind_prepare(void *of, double dt, struct solver_error *error);
-bool solver_upwind_evaluate(void *of, double t, double dt, struct solver_error *error);
+void solver_upwind_gradients(const void *of, bool start, size_t begin, size_t end);
+void solver_upwind_rates(const void *of, bool start, size_t begin, size_t end);
+const struct solver_graph *solver_upwind_graph(const void *of);
 void solver_upwind_refresh(void *of, size_t begin, size_t end);
-double solver_upwind_largest_step(const void *of);
+double solver_upwind_fastest(const void *of, size_t begin, size_t end);
+double solver_upwind_largest_step(const void *of, double fastest);
 size_t solver_upwind_first_broken(const void *of, size_t begin, size_t end);
 const char *solver_upwind_complaint(const void *of, size_t a);
 void solver_upwind_look(const void *of, size_t a, struct solver_point *point);
@@ -71,8 +75,9 @@ static inline const double *solver_upwind_memory(const struct solver_upwind *wor
 
 /* What such schemes have in common, for their initializers. */
 #define SOLVER_UPWIND_SHARED                                                                                           \
-    .deformation = true, .stencil = true, .bind = solver_upwind_bind, .start = solver_upwind_start,                    \
-    .prepare = solver_upwind_prepare, .evaluate = solver_upwind_evaluate, .refresh = solver_upwind_refresh,            \
+    .deformation = true, .stencil = true, .turn = solver_upwind_turn, .start = solver_upwind_start,                    \
+    .prepare = solver_upwind_prepare, .gradients = solver_upwind_gradients, .rates = solver_upwind_rates,              \
+    .graph = solver_upwind_graph, .refresh = solver_upwind_refresh, .fastest = solver_upwind_fastest,                  \
     .largest_step = solver_upwind_largest_step, .first_broken = solver_upwind_first_broken,                            \
     .complaint = solver_upwind_complaint, .look = solver_upwind_look, .energy = solver_upwind_energy,                  \
     .dissipated = solver_upwind_dissipated, .lost = solver_upwind_lost

@@ -13,8 +13,8 @@ struct system {
     struct solver_upwind_system base; /* its work has no fields */
     const struct solver_upwind_single_loops *loops;
     const struct solver_single_loops *convert;
-    struct solver_upwind_single work;
-    double centre[3]; /* from which work.X is measured [m] */
+    struct solver_upwind_single work, at_start; /* as in the base */
+    double centre[3];                           /* from which work.X is measured [m] */
 };
 
 static void place_centre(struct system *system)
@@ -109,12 +109,19 @@ static size_t fields(void *of, struct solver_field table[SOLVER_STATE_FIELDS])
     return sizeof rows / sizeof *rows;
 }
 
-static void bind(void *of)
+static void bind_cofactor(struct system *system)
 {
-    struct system *system = of;
     if (system->work.evolves_H && !system->work.frozen) {
         system->work.cofactor = system->work.H;
     }
+}
+
+static void turn(void *of, struct solver_state *state)
+{
+    struct system *system = of;
+    system->at_start = system->work;
+    solver_state_turn(state);
+    bind_cofactor(system);
 }
 
 /* --- windows --- */
@@ -208,33 +215,20 @@ static size_t first_broken(const void *of, size_t begin, size_t end)
     return end;
 }
 
-static double fastest_of(const struct system *system, size_t begin, size_t end)
+static double fastest(const void *of, size_t begin, size_t end)
 {
+    const struct system *system = of;
     const struct solver_upwind_single *work = &system->work;
-    double fastest = 0.0;
+    double speed = 0.0;
     if (work->frozen) { /* whatever F is */
         return work->material->fastest(work->constants, work->stride, begin, end, NULL);
     }
     for (size_t first = begin; first < end; first += WINDOW) {
         struct window window;
         open_window(system, first, end, &window);
-        fastest =
-            fmax(fastest, work->material->fastest(window.work.constants, work->stride, 0, window.count, window.F));
+        speed = fmax(speed, work->material->fastest(window.work.constants, work->stride, 0, window.count, window.F));
     }
-    return fastest;
-}
-
-static double largest_step(const void *of)
-{
-    const struct system *system = of;
-    const struct solver_body *body = system->base.body;
-    double fastest = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : fastest)
-    for (size_t piece = 0; piece < solver_pieces(body->cloud->count); piece++) {
-        struct solver_piece at = solver_piece_at(piece, body->cloud->count);
-        fastest = fmax(fastest, fastest_of(system, at.begin, at.end));
-    }
-    return body->scene->cfl * system->base.stencil->finest / (fastest * system->base.meeting);
+    return speed;
 }
 
 /* --- one particle, as a system of its own --- */
@@ -333,33 +327,27 @@ static bool start(void *of, struct solver_error *error)
     size_t of_pairs =
         (2 * dim + 2 + (system->work.frozen ? 0 : 1)) * lanes * sizeof(float); /* P, slope of v, v, X, x */
     system->work.far = cloud->count * of_pairs > (size_t)1 << 20;
-    bind(system);
+    bind_cofactor(system);
     start_measures(system);
     solver_stencil_narrow_only(system->base.stencil);
     return true;
 }
 
-static bool evaluate(void *of, double t, double dt, struct solver_error *error)
+static const struct solver_upwind_single *work_of(const struct system *system, bool start)
+{
+    return start ? &system->at_start : &system->work;
+}
+
+static void gradients(const void *of, bool start, size_t begin, size_t end)
 {
     const struct system *system = of;
-    size_t count = system->base.body->cloud->count;
-    (void)t;
-    (void)dt;
-    (void)error;
-#pragma omp parallel
-    {
-#pragma omp for schedule(static)
-        for (size_t piece = 0; piece < solver_pieces(count); piece++) {
-            struct solver_piece at = solver_piece_at(piece, count);
-            system->loops->gradients(&system->work, at.begin, at.end);
-        }
-#pragma omp for schedule(static)
-        for (size_t piece = 0; piece < solver_pieces(count); piece++) {
-            struct solver_piece at = solver_piece_at(piece, count);
-            system->loops->rates(&system->work, at.begin, at.end);
-        }
-    }
-    return true;
+    system->loops->gradients(work_of(system, start), begin, end);
+}
+
+static void rates(const void *of, bool start, size_t begin, size_t end)
+{
+    const struct system *system = of;
+    system->loops->rates(work_of(system, start), begin, end);
 }
 
 /* Identities that are added to what is stored without, and taken from it. */
@@ -402,11 +390,14 @@ const struct solver_scheme solver_scheme_upwind_single = {
     .arrays = solver_upwind_arrays,
     .terms = terms,
     .fields = fields,
-    .bind = bind,
+    .turn = turn,
     .start = start,
-    .evaluate = evaluate,
+    .gradients = gradients,
+    .rates = rates,
+    .graph = solver_upwind_graph,
     .refresh = refresh,
-    .largest_step = largest_step,
+    .fastest = fastest,
+    .largest_step = solver_upwind_largest_step,
     .first_broken = first_broken,
     .complaint = complaint,
     .look = look,

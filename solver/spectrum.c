@@ -39,7 +39,7 @@ static bool rates(struct solver_run *run, struct solver_error *error)
     struct solver_state *state = &run->state;
     double power;
     solver_run_refresh(run);
-    return run->scheme->evaluate(run->system, run->time, 0.0, error) &&
+    return solver_scheme_evaluate(run->scheme, run->system, run->cloud->count, run->time, 0.0, error) &&
            solver_faces_load(&run->faces, &run->body, &geometry, run->time, solver_state_v(state),
                              solver_state_v_rate(state), &power, error);
 }

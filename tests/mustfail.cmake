@@ -148,8 +148,9 @@ assay_unit_mutant(ulsph-crossed solver_interfaces "kernels end there")
 assay_unit_mutant(ulsph-impedance-of-the-heavier solver_run_composite "the step where kernels cross")
 assay_unit_mutant(ulsph-step-without-meeting solver_run_composite "the step where kernels cross")
 assay_unit_mutant(slope-across-interface solver_run_composite "energy where materials meet")
-assay_unit_mutant(single-step-without-meeting solver_run_composite
+assay_unit_mutant(step-without-meeting solver_run_composite
                   "a step for materials that differ ten thousand times")
+assay_unit_mutant(wave-runs-ahead solver_wave "each sweep waits for neighbours")
 assay_unit_mutant(jst-biharmonic-sign solver_jst "its work is the Laplacian's square")
 assay_unit_mutant(ulsph-spin-sign solver_ulsph_gradients "linear velocity")
 assay_unit_mutant(ulsph-divergence-correction solver_ulsph_forces "work of forces is that of stress")

@@ -190,15 +190,15 @@ static void together(void)
     solver_cloud_free(cloud);
 }
 
-/* One order along one curve: neighbours in the list are mostly neighbours in space, whatever their body. */
+/* One order of all, row by row, whatever their body. */
 static void order(void)
 {
     const struct solver_shape shape[] = {box(0.0, 0.0, 1.6, 0.8), box(0.0, 0.8, 1.6, 0.8)};
     struct solver_cloud *cloud = make(shape, 2, 0.1);
     CU_ASSERT_EQUAL_FATAL(cloud->count, 256);
-    for (size_t run = 0; run < 256; run += 4) { /* squares of 2 x 2 */
-        CU_ASSERT_DOUBLE_EQUAL(cloud->X[2 * run + 6] - cloud->X[2 * run], 0.1, 1e-14);
-        CU_ASSERT_DOUBLE_EQUAL(cloud->X[2 * run + 7] - cloud->X[2 * run + 1], 0.1, 1e-14);
+    for (size_t a = 0; a < 256; a++) {
+        CU_ASSERT_DOUBLE_EQUAL(cloud->X[2 * a], 0.1 * ((double)(a % 16) + 0.5), 1e-14);
+        CU_ASSERT_DOUBLE_EQUAL(cloud->X[2 * a + 1], 0.1 * ((double)(a / 16) + 0.5), 1e-14);
     }
     CU_ASSERT(cloud->body[0] == 0 && cloud->body[255] == 1);
     solver_cloud_free(cloud);

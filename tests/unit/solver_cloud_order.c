@@ -4,22 +4,17 @@
 #include "tests/unit/unit.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* Whether a comes before b on a Z-order curve, without interleaving (Chan 2002): decided by the axis whose indices
- * differ in the highest bit, the last such axis if there are several. */
+/* Whether a comes before b row by row: along the last axis, then the one before it. */
 static bool before(const uint32_t *a, const uint32_t *b, size_t dim)
 {
-    size_t decides = 0;
-    uint32_t most = 0;
-    for (size_t i = 0; i < dim; i++) {
-        uint32_t differ = a[i] ^ b[i];
-        if (i == 0 || !(differ < most && differ < (differ ^ most))) {
-            decides = i;
-            most = differ;
-        }
+    size_t axis = dim - 1;
+    while (axis > 0 && a[axis] == b[axis]) {
+        axis--;
     }
-    return a[decides] < b[decides];
+    return a[axis] < b[axis];
 }
 
 static void order(void)
@@ -36,22 +31,27 @@ static void order(void)
     }
 }
 
-/* On 8 x 8 x 8 points each run of 8 (of 64) particles is a cube of 2 (of 4) points a side: neighbours in space are
- * neighbours in memory. */
+/* Whichever way a body lies, planes go along its longest axis and rows along its shortest: no neighbour along an axis
+ * is farther away in memory than the particles of the smallest plane. */
 static void locality(void)
 {
-    struct solver_box box = {.dim = 3, .upper = {0.7, 0.7, 0.7}, .spacing = 0.1};
-    struct solver_cloud *cloud = clouds_make(&box);
-    CU_ASSERT_PTR_NOT_NULL_FATAL(cloud);
-    CU_ASSERT_EQUAL_FATAL(cloud->count, 512);
-    for (uint32_t side = 2, run = 8; side <= 4; side *= 2, run *= 8) {
+    static const double sizes[][3] = {{0.3, 0.4, 0.9}, {0.9, 0.3, 0.4}, {0.4, 0.9, 0.3}, {0.9, 0.4, 0.3}};
+    for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+        struct solver_box box = {.dim = 3, .upper = {sizes[k][0], sizes[k][1], sizes[k][2]}, .spacing = 0.1};
+        struct solver_cloud *cloud = clouds_make(&box);
+        CU_ASSERT_PTR_NOT_NULL_FATAL(cloud);
+        CU_ASSERT_EQUAL_FATAL(cloud->count, 200);
         for (size_t a = 0; a < cloud->count; a++) {
-            for (size_t i = 0; i < 3; i++) {
-                CU_ASSERT_EQUAL(cloud->site[a * 3 + i] / side, cloud->site[a / run * run * 3 + i] / side);
+            for (size_t b = a + 1; b < cloud->count; b++) {
+                size_t apart = 0;
+                for (size_t i = 0; i < 3; i++) {
+                    apart += (size_t)labs((long)cloud->site[a * 3 + i] - (long)cloud->site[b * 3 + i]);
+                }
+                CU_ASSERT(apart != 1 || b - a <= 20);
             }
         }
+        solver_cloud_free(cloud);
     }
-    solver_cloud_free(cloud);
 }
 
 static bool same_bytes(const struct solver_cloud *a, const struct solver_cloud *b)
@@ -123,7 +123,7 @@ static void seeds(void)
 int main(void)
 {
     static const struct unit_test tests[] = {
-        {"order along a Z-order curve", order},
+        {"row by row", order},
         {"locality", locality},
         {"seeds", seeds},
     };

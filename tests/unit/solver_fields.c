@@ -27,7 +27,7 @@ static struct machine take_apart(const char *more, const char *words)
     machine.run = run;
     machine.state = &run->state;
     machine.count = run->state.count;
-    machine.dt = 0.5 * run->scheme->largest_step(run->system);
+    machine.dt = 0.5 * solver_scheme_largest_step(run->scheme, run->system, run->cloud->count);
     if (strcmp(machine.sample.scene->scheme, "ulsph") == 0) {
         /* its table of fields starts with where its work keeps v */
         machine.ulsph = (const void *)((const char *)run->state.field[0].value - offsetof(struct solver_ulsph, v));
@@ -47,10 +47,10 @@ static void upwind_phase(const struct machine *machine, int phase)
     if (phase == GRADIENTS) {
         system->loops->gradients(&system->work, 0, machine->count);
         if (system->gather != NULL) {
-            system->gather(system, 0, machine->count);
+            system->gather(system, &system->work, 0, machine->count);
         }
     } else if (phase == RATES && system->rates != NULL) {
-        system->rates(system, 0, machine->count);
+        system->rates(system, &system->work, 0, machine->count);
     } else if (phase == RATES) {
         system->loops->rates(&system->work, 0, machine->count);
     }

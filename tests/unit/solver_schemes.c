@@ -20,8 +20,11 @@ static void test_table(void)
         CU_ASSERT_PTR_EQUAL(solver_scheme_find(scheme->name), scheme);
         CU_ASSERT(scheme->summary != NULL && scheme->advice != NULL);
         CU_ASSERT(scheme->create != NULL && scheme->destroy != NULL && scheme->geometry != NULL);
-        CU_ASSERT(scheme->fields != NULL && scheme->start != NULL && scheme->evaluate != NULL);
-        CU_ASSERT(scheme->refresh != NULL && scheme->largest_step != NULL && scheme->first_broken != NULL);
+        CU_ASSERT(scheme->fields != NULL && scheme->start != NULL &&
+                  (scheme->evaluate != NULL ||
+                   (scheme->gradients != NULL && scheme->rates != NULL && scheme->graph != NULL)));
+        CU_ASSERT(scheme->refresh != NULL && scheme->fastest != NULL && scheme->largest_step != NULL &&
+                  scheme->first_broken != NULL);
         CU_ASSERT(scheme->complaint != NULL && scheme->look != NULL && scheme->energy != NULL);
         count++;
     }

@@ -130,7 +130,8 @@ static inline void ulsph_copy(const struct sample *from, const struct sample *to
 static inline void ulsph_evaluate(struct sample *sample)
 {
     solver_run_refresh(sample->run);
-    bool ok = sample->run->scheme->evaluate(sample->run->system, 0.0, 0.0, &sample->error);
+    bool ok = solver_scheme_evaluate(sample->run->scheme, sample->run->system, sample->run->cloud->count, 0.0, 0.0,
+                                     &sample->error);
     if (!ok) {
         printf("\n    %s", sample->error.text);
     }
