@@ -19,10 +19,11 @@ enum {
                                    : 0,
     FLOPS_TENSOR_CROSS = DIM == 3 ? 21 * LANES : 0,
     FLOPS_ADD_SCALED = 2 * FLOPS_TENSOR, /* one vector, times each component of another, added to a tensor */
-    /* dim_spectral.h: a rotation; as many sweeps as strains usually take */
-    FLOPS_ROTATE = 10 + SOLVER_COST_FUNCTION + 18 * DIM,
-    FLOPS_SWEEPS = DIM == 3 ? 4 : 2 * (DIM - 1),
-    FLOPS_SPECTRUM = FLOPS_SWEEPS * (DIM * (DIM - 1) / 2) * FLOPS_ROTATE + (FLOPS_SWEEPS + 1) * (DIM * DIM + 1)
+    /* dim_spectral.h, of one of a lot's particles: a rotation; as many sweeps as strains usually take */
+    FLOPS_ROTATE = 17 + 6 * (2 * DIM - 2),
+    FLOPS_SWEEPS = DIM == 3 ? 4 : DIM - 1,
+    FLOPS_SPECTRUM =
+        FLOPS_SWEEPS * (DIM * (DIM - 1) / 2) * FLOPS_ROTATE + (FLOPS_SWEEPS + 1) * (DIM + DIM * (DIM - 1) / 2)
 };
 
 #endif

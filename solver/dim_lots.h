@@ -7,6 +7,7 @@
 #include "solver/dim.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 enum { LOT = 4 };
 typedef double lot __attribute__((vector_size(LOT * sizeof(double))));
@@ -27,6 +28,11 @@ static inline lot select_lot(lot_mask where, lot a, lot b)
 static inline lot larger_lot(lot known, lot other)
 {
     return select_lot(other > known, other, known);
+}
+
+static inline bool all_lot(lot_mask mask)
+{
+    return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
 }
 
 static inline lot sqrt_lot(lot a)
@@ -128,6 +134,18 @@ static inline void store_tensors(double *to, const struct tensors *T)
             store(to + (k * DIM + I) * LANES, of[k]);
         }
     }
+}
+
+/* The same tensor in each lane. */
+static inline struct tensors tensors_of(struct tensor T)
+{
+    struct tensors all;
+    for (int I = 0; I < DIM; I++) {
+        for (int i = 0; i < DIM; i++) {
+            all.column[I][i] = lot_of(T.column[I][i]);
+        }
+    }
+    return all;
 }
 
 static inline lot dot_lot(const lot a[DIM], const lot b[DIM])
