@@ -153,4 +153,13 @@ static inline struct tensor positive_part(struct tensor T)
 }
 #endif
 
+/* Operations (cost.h) for one of a lot's tensors: a rotation; as many sweeps as strains usually take. */
+enum {
+    FLOPS_ROTATE = 17 + 6 * (2 * DIM - 2),
+    FLOPS_SWEEPS = DIM == 3 ? 4 : DIM - 1,
+    FLOPS_SPECTRUM =
+        FLOPS_SWEEPS * (DIM * (DIM - 1) / 2) * FLOPS_ROTATE + (FLOPS_SWEEPS + 1) * (DIM + DIM * (DIM - 1) / 2),
+    FLOPS_SPECTRUM_ALONE = LOT * FLOPS_SPECTRUM /* in every lane */
+};
+
 #endif

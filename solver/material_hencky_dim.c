@@ -8,6 +8,7 @@
  * what is remembered of Cp^-1 is its difference from the identity, for the same reason. */
 #include "solver/dim.h"
 #include "solver/dim_flops.h"
+#include "solver/dim_ranges.h"
 #include "solver/dim_spectral.h"
 #include "solver/material.h"
 
@@ -29,54 +30,104 @@ static const int place[2][2] = {{1, 3}, {3, 2}};
 static const int place[1][1] = {{1}};
 #endif
 
-/* Principal logarithmic elastic strains, those of the plane first, their mean, and the directions in the plane. */
+/* Principal logarithmic elastic strains of a lot, those of the plane first, their mean, and the directions in the
+ * plane. */
+struct strains_of_lot {
+    lot log[3], mean;
+    lot axis[DIM][DIM];
+};
+
+/* Of one particle. */
 struct strains {
     double log[3], mean;
     vec axis[DIM];
 };
 
-/* A B^T */
-static inline struct tensor times_transposed(struct tensor A, struct tensor B)
+static inline struct strains strains_of_one(const struct strains_of_lot *all, int k)
 {
-    struct tensor product = {{{0}}};
-    for (int j = 0; j < DIM; j++) {
-        for (int K = 0; K < DIM; K++) {
-            product.column[j] += A.column[K] * B.column[K][j];
+    struct strains strains = {.mean = all->mean[k]};
+    for (int i = 0; i < 3; i++) {
+        strains.log[i] = all->log[i][k];
+    }
+    for (int i = 0; i < DIM; i++) {
+        strains.axis[i] = (vec){0};
+        for (int I = 0; I < DIM; I++) {
+            strains.axis[i][I] = all->axis[i][I][k];
         }
     }
-    return product;
+    return strains;
 }
 
-/* `memory` NULL: nothing has flown. */
-static inline struct strains strains_of(struct tensor F, const double *memory)
+static inline lot log1p_lot(lot a)
 {
-    struct tensor G = F;
+    return (lot){log1p(a[0]), log1p(a[1]), log1p(a[2]), log1p(a[3])};
+}
+
+/* What the particles of a lot remember. */
+static inline void load_memory(const double *from, lot memory[WIDTH])
+{
+    for (int i = 0; i < WIDTH; i++) {
+        memory[i] = (lot){from[i], from[WIDTH + i], from[2 * WIDTH + i], from[3 * WIDTH + i]};
+    }
+}
+
+/* b_e - 1. `memory` NULL: nothing has flown. */
+static inline struct tensors excess_of(const struct tensors *F, const lot *memory)
+{
+    struct tensors G = *F;
+    lot plastic[DIM][DIM]; /* F (Cp^-1 - 1) */
+    struct tensors excess;
     for (int I = 0; I < DIM; I++) {
         G.column[I][I] -= 1.0;
     }
-    struct tensor excess = times_transposed(G, G);
-    struct tensor turned = transpose(G);
-    struct tensor plastic = {{{0}}};
-    for (int I = 0; memory != NULL && I < DIM; I++) {
-        for (int K = 0; K < DIM; K++) {
-            plastic.column[I] += F.column[K] * memory[place[K][I]];
+    for (int i = 0; memory != NULL && i < DIM; i++) {
+        for (int I = 0; I < DIM; I++) {
+            plastic[i][I] = F->column[0][i] * memory[place[0][I]];
+            for (int K = 1; K < DIM; K++) {
+                plastic[i][I] += F->column[K][i] * memory[place[K][I]];
+            }
         }
     }
-    if (memory != NULL) {
-        plastic = times_transposed(plastic, F);
+    for (int j = 0; j < DIM; j++) {
+        for (int i = 0; i <= j; i++) {
+            lot sum = G.column[j][i] + G.column[i][j];
+            for (int K = 0; K < DIM; K++) {
+                sum += G.column[K][i] * G.column[K][j];
+            }
+            for (int K = 0; memory != NULL && K < DIM; K++) {
+                sum += plastic[i][K] * F->column[K][j];
+            }
+            excess.column[j][i] = excess.column[i][j] = sum;
+        }
     }
-    for (int I = 0; I < DIM; I++) {
-        excess.column[I] += G.column[I] + turned.column[I] + plastic.column[I];
-    }
-    struct spectrum of = spectrum(excess);
-    double normal = DIM < 3 && memory != NULL ? 0.5 * log1p(memory[NORMAL]) : 0.0;
-    struct strains strains = {.log = {normal, normal, normal}};
+    return excess;
+}
+
+static inline struct strains_of_lot strains_of_all(const struct tensors *F, const lot *memory)
+{
+    struct tensors excess = excess_of(F, memory);
+    struct spectra of = spectra(&excess);
+    lot normal = DIM < 3 && memory != NULL ? 0.5 * log1p_lot(memory[NORMAL]) : (lot){0};
+    struct strains_of_lot strains = {.log = {normal, normal, normal}};
     for (int i = 0; i < DIM; i++) {
-        strains.log[i] = 0.5 * log1p(of.value[i]);
-        strains.axis[i] = of.direction[i];
+        strains.log[i] = 0.5 * log1p_lot(of.value[i]);
+        for (int I = 0; I < DIM; I++) {
+            strains.axis[i][I] = of.direction[i][I];
+        }
     }
     strains.mean = (strains.log[0] + strains.log[1] + strains.log[2]) / 3.0;
     return strains;
+}
+
+static inline struct strains strains_of(struct tensor F, const double *memory)
+{
+    struct tensors same = tensors_of(F);
+    lot all[WIDTH];
+    for (int i = 0; memory != NULL && i < WIDTH; i++) {
+        all[i] = lot_of(memory[i]);
+    }
+    struct strains_of_lot strains = strains_of_all(&same, memory != NULL ? all : NULL);
+    return strains_of_one(&strains, 0);
 }
 
 /* sqrt(3/2 tau' : tau') [Pa] */
@@ -89,18 +140,30 @@ static inline double equivalent(const struct solver_material_constants *material
     return 2.0 * material->mu * sqrt(1.5 * square);
 }
 
-static inline struct tensor stress_of(const struct solver_material_constants *material, struct tensor F,
-                                      struct tensor H, double J, const struct strains *strains)
+static inline lot log_lot(lot a)
 {
-    struct tensor own = cofactor(F);
-    double per_volume = 1.0 / determinant(F);
-    double pressure = material->kappa * log(J) / J;
-    struct tensor P;
+    return (lot){log(a[0]), log(a[1]), log(a[2]), log(a[3])};
+}
+
+static inline struct tensors stress_of(struct constants material, const struct tensors *F, const struct tensors *H,
+                                       lot J, const struct strains_of_lot *strains)
+{
+    struct tensors own = cofactors(F);
+    lot per_volume = 1.0 / determinants(F);
+    lot pressure = material.kappa * log_lot(J) / J;
+    struct tensors P;
     for (int I = 0; I < DIM; I++) {
-        P.column[I] = pressure * H.column[I];
-        for (int i = 0; i < DIM; i++) { /* F^-T n = cof(F) n / J */
-            double tau = 2.0 * material->mu * (strains->log[i] - strains->mean);
-            P.column[I] += (tau * per_volume * dot(own.column[I], strains->axis[i])) * strains->axis[i];
+        for (int i = 0; i < DIM; i++) {
+            P.column[I][i] = pressure * H->column[I][i];
+        }
+    }
+    for (int k = 0; k < DIM; k++) { /* F^-T n = cof(F) n / J */
+        lot tau = 2.0 * material.mu * (strains->log[k] - strains->mean) * per_volume;
+        for (int I = 0; I < DIM; I++) {
+            lot along = tau * dot_lot(own.column[I], strains->axis[k]);
+            for (int i = 0; i < DIM; i++) {
+                P.column[I][i] += along * strains->axis[k][i];
+            }
         }
     }
     return P;
@@ -130,18 +193,18 @@ static double energy(const struct solver_material_constants *material, const dou
     return energy_of(material, F, J, NULL);
 }
 
-/* Compiled once, so that the stress of a range is the pointwise one to the bit. */
-static __attribute__((noinline)) struct tensor elastic(const struct solver_material_constants *material,
-                                                       struct tensor F, struct tensor H, double J)
-{
-    struct strains strains = strains_of(F, NULL);
-    return stress_of(material, F, H, J, &strains);
-}
-
 static void stress(const struct solver_material_constants *material, const double *F, const double *H, double J,
                    double *P)
 {
-    to_rows(elastic(material, from_rows(F), from_rows(H), J), P);
+    struct tensors at = tensors_of(from_rows(F));
+    struct tensors cof = tensors_of(from_rows(H));
+    struct strains_of_lot strains = strains_of_all(&at, NULL);
+    struct tensors stresses = stress_of(constants_of(material, 0), &at, &cof, lot_of(J), &strains);
+    for (int i = 0; i < DIM; i++) {
+        for (int I = 0; I < DIM; I++) {
+            P[i * DIM + I] = stresses.column[I][i][0];
+        }
+    }
 }
 
 static double stress_normal(const struct solver_material_constants *material, const double *F, double J)
@@ -274,27 +337,48 @@ static inline double slowness(const struct strains *strains)
     return exp(-2.0 * least);
 }
 
+/* --- loops over particles (dim_ranges.h) --- */
+
+static __attribute__((noinline)) double fastest_of_whole(const struct solver_material_constants *material,
+                                                         size_t stride, size_t count, const double *F)
+{
+    double square = 0.0;
+    for (size_t a = 0; a < count; a += LOT) {
+        struct tensors at = load_tensors(F + a * TENSOR_WIDTH);
+        struct strains_of_lot all = strains_of_all(&at, NULL);
+        for (int k = 0; k < LOT; k++) {
+            const struct solver_material_constants *here = material + (a + (size_t)k) * stride;
+            struct strains strains = strains_of_one(&all, k);
+            square = fmax(square, modulus_bound(here, &strains) * slowness(&strains) / here->rho);
+        }
+    }
+    return sqrt(square);
+}
+
 static double fastest(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                       const double *F)
 {
-    double square = 0.0;
-    for (size_t a = begin; a < end; a++) {
-        const struct solver_material_constants *here = material + a * stride;
-        struct strains strains = strains_of(load_tensor(F + a * DIM * LANES), NULL);
-        square = fmax(square, modulus_bound(here, &strains) * slowness(&strains) / here->rho);
+    return fastest_by_lots(fastest_of_whole, material, stride, begin, end, F);
+}
+
+static __attribute__((noinline)) void stress_of_whole(const struct solver_material_constants *material, size_t stride,
+                                                      size_t count, const double *F, const double *H, const double *J,
+                                                      double *P)
+{
+    for (size_t a = 0; a < count; a += LOT) {
+        struct tensors at = load_tensors(F + a * TENSOR_WIDTH);
+        struct tensors cof = H != NULL ? load_tensors(H + a * TENSOR_WIDTH) : cofactors(&at);
+        lot jacobian = J != NULL ? load_lot(J + a) : determinants(&at);
+        struct strains_of_lot strains = strains_of_all(&at, NULL);
+        struct tensors stresses = stress_of(constants_of(material + a * stride, stride), &at, &cof, jacobian, &strains);
+        store_tensors(P + a * TENSOR_WIDTH, &stresses);
     }
-    return sqrt(square);
 }
 
 static void stress_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                          const double *F, const double *H, const double *J, double *P)
 {
-    for (size_t a = begin; a < end; a++) {
-        struct tensor at = load_tensor(F + a * DIM * LANES);
-        struct tensor cof = H != NULL ? load_tensor(H + a * DIM * LANES) : cofactor(at);
-        double jacobian = J != NULL ? J[a] : determinant(at);
-        store_tensor(P + a * DIM * LANES, elastic(material + a * stride, at, cof, jacobian));
-    }
+    stress_by_lots(stress_of_whole, material, stride, begin, end, F, H, J, P);
 }
 
 static void volumetric_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
@@ -337,53 +421,110 @@ static inline void return_to_surface(struct tensor F, double part, struct strain
     }
 }
 
+/* The return map of particle k of a lot. */
+static inline void flow_one(const struct solver_material_constants *material, const struct solver_hardening *hardening,
+                            const double *F, struct strains_of_lot *all, int k, double *memory)
+{
+    struct strains strains = strains_of_one(all, k);
+    double q = equivalent(material, &strains);
+    double flow = solver_hardening_flow(hardening, material->mu, q, memory[0]);
+    if (flow > 0.0) {
+        memory[0] += flow;
+        return_to_surface(load_tensor(F), 3.0 * material->mu * flow / q, &strains, memory);
+        for (int i = 0; i < 3; i++) {
+            all->log[i][k] = strains.log[i];
+        }
+    }
+}
+
+static __attribute__((noinline)) void flow_of_whole(const struct solver_material_constants *material, size_t stride,
+                                                    const struct solver_hardening *hardening, size_t count,
+                                                    const double *F, const double *H, const double *J,
+                                                    const double *before, double *now, double *P)
+{
+    for (size_t a = 0; a < count; a += LOT) {
+        struct tensors at = load_tensors(F + a * TENSOR_WIDTH);
+        struct tensors cof = H != NULL ? load_tensors(H + a * TENSOR_WIDTH) : cofactors(&at);
+        lot jacobian = J != NULL ? load_lot(J + a) : determinants(&at);
+        lot memory[WIDTH];
+        load_memory(before + a * WIDTH, memory);
+        struct strains_of_lot strains = strains_of_all(&at, memory);
+        memcpy(now + a * WIDTH, before + a * WIDTH, LOT * WIDTH * sizeof *now);
+        for (int k = 0; k < LOT; k++) {
+            size_t b = a + (size_t)k;
+            flow_one(material + b * stride, hardening, F + b * TENSOR_WIDTH, &strains, k, now + b * WIDTH);
+        }
+        struct tensors stresses = stress_of(constants_of(material + a * stride, stride), &at, &cof, jacobian, &strains);
+        store_tensors(P + a * TENSOR_WIDTH, &stresses);
+    }
+}
+
 static void flow_stress_range(const struct solver_material_constants *material, size_t stride,
                               const struct solver_hardening *hardening, size_t begin, size_t end, const double *F,
                               const double *H, const double *J, const double *before, double *now, double *P)
 {
-    for (size_t a = begin; a < end; a++) {
-        const struct solver_material_constants *here = material + a * stride;
-        struct tensor at = load_tensor(F + a * DIM * LANES);
-        struct tensor cof = H != NULL ? load_tensor(H + a * DIM * LANES) : cofactor(at);
-        double jacobian = J != NULL ? J[a] : determinant(at);
-        double *memory = now + a * WIDTH;
-        for (int k = 0; k < WIDTH; k++) {
-            memory[k] = before[a * WIDTH + (size_t)k];
-        }
-        struct strains strains = strains_of(at, memory);
-        double q = equivalent(here, &strains);
-        double flow = solver_hardening_flow(hardening, here->mu, q, memory[0]);
-        if (flow > 0.0) {
-            memory[0] += flow;
-            return_to_surface(at, 3.0 * here->mu * flow / q, &strains, memory);
-        }
-        store_tensor(P + a * DIM * LANES, stress_of(here, at, cof, jacobian, &strains));
+    size_t last = end - (end - begin) % LOT;
+    size_t first = begin * TENSOR_WIDTH;
+    flow_of_whole(material + begin * stride, stride, hardening, last - begin, F + first, H != NULL ? H + first : NULL,
+                  J != NULL ? J + begin : NULL, before + begin * WIDTH, now + begin * WIDTH, P + first);
+    if (last < end) {
+        struct filled filled;
+        double memory[2][LOT * WIDTH];
+        fill(&filled, material, stride, last, end, F, H, J);
+        fill_lot(before + last * WIDTH, end - last, WIDTH, memory[0]);
+        flow_of_whole(filled.material, 1, hardening, LOT, filled.F, H != NULL ? filled.H : NULL,
+                      J != NULL ? filled.J : NULL, memory[0], memory[1], filled.P);
+        memcpy(now + last * WIDTH, memory[1], (end - last) * WIDTH * sizeof *now);
+        memcpy(P + last * TENSOR_WIDTH, filled.P, (end - last) * TENSOR_WIDTH * sizeof *P);
     }
+}
+
+static __attribute__((noinline)) double flow_fastest_of_whole(const struct solver_material_constants *material,
+                                                              size_t stride, size_t count, const double *F,
+                                                              const double *now)
+{
+    double square = 0.0;
+    for (size_t a = 0; a < count; a += LOT) {
+        struct tensors at = load_tensors(F + a * TENSOR_WIDTH);
+        lot memory[WIDTH];
+        load_memory(now + a * WIDTH, memory);
+        struct strains_of_lot whole = strains_of_all(&at, NULL);
+        struct strains_of_lot elastic = strains_of_all(&at, memory);
+        for (int k = 0; k < LOT; k++) {
+            const struct solver_material_constants *here = material + (a + (size_t)k) * stride;
+            struct strains of_F = strains_of_one(&whole, k);
+            struct strains strains = strains_of_one(&elastic, k);
+            square = fmax(square, modulus_bound(here, &strains) * slowness(&of_F) / here->rho);
+        }
+    }
+    return sqrt(square);
 }
 
 static double flow_fastest(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                            const double *F, const double *now)
 {
-    double square = 0.0;
-    for (size_t a = begin; a < end; a++) {
-        const struct solver_material_constants *here = material + a * stride;
-        struct tensor at = load_tensor(F + a * DIM * LANES);
-        struct strains whole = strains_of(at, NULL);
-        struct strains strains = strains_of(at, now + a * WIDTH);
-        square = fmax(square, modulus_bound(here, &strains) * slowness(&whole) / here->rho);
+    size_t last = end - (end - begin) % LOT;
+    double speed = flow_fastest_of_whole(material + begin * stride, stride, last - begin, F + begin * TENSOR_WIDTH,
+                                         now + begin * WIDTH);
+    if (last < end) {
+        struct filled filled;
+        double memory[LOT * WIDTH];
+        fill(&filled, material, stride, last, end, F, NULL, NULL);
+        fill_lot(now + last * WIDTH, end - last, WIDTH, memory);
+        speed = fmax(speed, flow_fastest_of_whole(filled.material, 1, LOT, filled.F, memory));
     }
-    return sqrt(square);
+    return speed;
 }
 
 /* --- operations (cost.h) --- */
 
 enum {
-    PRODUCT = DIM * FLOPS_ADD_SCALED,
     LOGARITHM = SOLVER_COST_FUNCTION + 1, /* a function and a factor */
-    STRAINS = DIM + PRODUCT + 3 * FLOPS_TENSOR + FLOPS_SPECTRUM + DIM * LOGARITHM + 3,
-    PLASTIC_STRAINS = STRAINS + 2 * PRODUCT + LOGARITHM,
+    HALF = DIM * (DIM + 1) / 2,           /* entries of a symmetric tensor */
+    STRAINS = DIM + HALF * (1 + 2 * DIM) + FLOPS_SPECTRUM + DIM * LOGARITHM + 3,
+    PLASTIC_STRAINS = STRAINS + DIM * DIM * (2 * DIM - 1) + HALF * 2 * DIM + (DIM < 3 ? LOGARITHM : 0),
     STRESS =
-        FLOPS_COFACTOR + FLOPS_DETERMINANT + 1 + LOGARITHM + 1 + FLOPS_TENSOR + DIM * DIM * (5 + FLOPS_DOT + 2 * LANES),
+        LOT_COFACTOR + LOT_DETERMINANT + 1 + LOGARITHM + 1 + DIM * DIM + DIM * 4 + DIM * DIM * (LOT_DOT + 1 + 2 * DIM),
     MODULUS = 7 * DIM + DIM * (DIM - 1) / 2 * (LOGARITHM + 5) + 5,
     FASTEST = MODULUS + LOGARITHM + 2,
     YIELD = 12 + 4 + 3,          /* equivalent stress and its excess */
@@ -394,7 +535,7 @@ enum {
 
 static int stress_flops(bool H, bool J)
 {
-    return (H ? 0 : FLOPS_COFACTOR) + (J ? 0 : FLOPS_DETERMINANT) + STRAINS + STRESS;
+    return (H ? 0 : LOT_COFACTOR) + (J ? 0 : LOT_DETERMINANT) + STRAINS + STRESS;
 }
 
 /* Where it flows, with linear hardening. */
@@ -408,7 +549,7 @@ static const struct solver_flow plastic_flow = {
     .stress_range = flow_stress_range,
     .stress_flops = flow_stress_flops,
     .fastest_flops = STRAINS + PLASTIC_STRAINS + FASTEST,
-    .energy_flops = PLASTIC_STRAINS + ENERGY,
+    .energy_flops = LOT * PLASTIC_STRAINS + ENERGY, /* in every lane of a lot */
     .energy = energy_of,
     .stress_normal = normal_of,
     .fastest = flow_fastest,
@@ -428,6 +569,6 @@ const struct solver_material DIM_NAME(solver_hencky) = {
     .volumetric_flops = LOGARITHM + 1,
     .stiffness_flops = SOLVER_COST_FUNCTION + 3,
     .fastest_flops = STRAINS + FASTEST,
-    .energy_flops = STRAINS + ENERGY,
+    .energy_flops = LOT * STRAINS + ENERGY,
     .fastest = fastest,
 };

@@ -7,12 +7,11 @@
  * P 2.9e-3 instead of 2.3e-3). F:F counts the directions out of the plane. */
 #include "solver/dim.h"
 #include "solver/dim_flops.h"
-#include "solver/dim_lots.h"
+#include "solver/dim_ranges.h"
 #include "solver/dim_roots.h"
 #include "solver/material.h"
 
 #include <math.h>
-#include <string.h>
 
 static inline double invariant(struct tensor F)
 {
@@ -174,26 +173,13 @@ static void wave_speeds(const struct solver_material_constants *material, const 
 
 /* --- loops over particles: the same, a lot at a time --- */
 
-struct moduli {
-    lot mu, kappa, rho;
-};
-
-static inline struct moduli moduli_of(const struct solver_material_constants *material, size_t stride)
-{
-    const struct solver_material_constants *m[LOT] = {material, material + stride, material + 2 * stride,
-                                                      material + 3 * stride};
-    return (struct moduli){.mu = {m[0]->mu, m[1]->mu, m[2]->mu, m[3]->mu},
-                           .kappa = {m[0]->kappa, m[1]->kappa, m[2]->kappa, m[3]->kappa},
-                           .rho = {m[0]->rho, m[1]->rho, m[2]->rho, m[3]->rho}};
-}
-
 /* What a loop is compiled for. */
 struct reading {
     bool polyconvex, H, J; /* H and J of their own beside F */
 };
 
 static inline __attribute__((always_inline)) struct tensors
-stress_of_lot(struct moduli of, const double *F, const double *H, const double *J, struct reading reading)
+stress_of_lot(struct constants of, const double *F, const double *H, const double *J, struct reading reading)
 {
     struct tensors at = load_tensors(F);
     struct tensors cof = reading.H ? load_tensors(H) : cofactors(&at);
@@ -218,17 +204,16 @@ stress_of_lot(struct moduli of, const double *F, const double *H, const double *
     return P;
 }
 
-/* `count` particles, whole lots. */
-static inline __attribute__((always_inline)) void stress_of_lots(const struct solver_material_constants *material,
-                                                                 size_t stride, size_t count, const double *F,
-                                                                 const double *H, const double *J, double *P,
-                                                                 struct reading reading)
+static inline __attribute__((always_inline)) void stresses_as(const struct solver_material_constants *material,
+                                                              size_t stride, size_t count, const double *F,
+                                                              const double *H, const double *J, double *P,
+                                                              struct reading reading)
 {
-    struct moduli here = moduli_of(material, 0);
+    struct constants here = {.mu = {0}};
     for (size_t a = 0; a < count; a += LOT) {
-        size_t at = a * DIM * LANES;
-        if (stride != 0) {
-            here = moduli_of(material + a * stride, stride);
+        size_t at = a * TENSOR_WIDTH;
+        if (a == 0 || stride != 0) {
+            here = constants_of(material + a * stride, stride);
         }
         struct tensors stresses =
             stress_of_lot(here, F + at, reading.H ? H + at : NULL, reading.J ? J + a : NULL, reading);
@@ -236,82 +221,49 @@ static inline __attribute__((always_inline)) void stress_of_lots(const struct so
     }
 }
 
-/* Compiled once, so that a particle's stress has the same bits in every range. */
+static inline __attribute__((always_inline)) void stresses(const struct solver_material_constants *material,
+                                                           size_t stride, size_t count, const double *F,
+                                                           const double *H, const double *J, double *P, bool polyconvex)
+{
+    struct reading reading = {.polyconvex = polyconvex};
+    if (H != NULL && J != NULL) {
+        reading.H = reading.J = true;
+        stresses_as(material, stride, count, F, H, J, P, reading);
+    } else if (H != NULL) {
+        reading.H = true;
+        stresses_as(material, stride, count, F, H, J, P, reading);
+    } else if (J != NULL) {
+        reading.J = true;
+        stresses_as(material, stride, count, F, H, J, P, reading);
+    } else {
+        stresses_as(material, stride, count, F, H, J, P, reading);
+    }
+}
+
 static __attribute__((noinline)) void stress_of_whole(const struct solver_material_constants *material, size_t stride,
                                                       size_t count, const double *F, const double *H, const double *J,
-                                                      double *P, bool polyconvex)
+                                                      double *P)
 {
-    if (polyconvex && H != NULL && J != NULL) {
-        stress_of_lots(material, stride, count, F, H, J, P, (struct reading){.polyconvex = true, .H = true, .J = true});
-    } else if (polyconvex && H != NULL) {
-        stress_of_lots(material, stride, count, F, H, J, P, (struct reading){.polyconvex = true, .H = true});
-    } else if (polyconvex && J != NULL) {
-        stress_of_lots(material, stride, count, F, H, J, P, (struct reading){.polyconvex = true, .J = true});
-    } else if (H != NULL && J != NULL) {
-        stress_of_lots(material, stride, count, F, H, J, P, (struct reading){.H = true, .J = true});
-    } else if (H != NULL) {
-        stress_of_lots(material, stride, count, F, H, J, P, (struct reading){.H = true});
-    } else if (J != NULL) {
-        stress_of_lots(material, stride, count, F, H, J, P, (struct reading){.J = true});
-    } else { /* both readings are one */
-        stress_of_lots(material, stride, count, F, H, J, P, (struct reading){.J = false});
-    }
+    stresses(material, stride, count, F, H, J, P, false);
 }
 
-/* Fewer particles than a lot, the last of them repeated to fill it. */
-struct filled {
-    double F[LOT * DIM * LANES] __attribute__((aligned(64)));
-    double H[LOT * DIM * LANES] __attribute__((aligned(64)));
-    double P[LOT * DIM * LANES] __attribute__((aligned(64)));
-    double J[LOT];
-    struct solver_material_constants material[LOT];
-};
-
-static void fill(struct filled *to, const struct solver_material_constants *material, size_t stride, size_t count,
-                 const double *F, const double *H, const double *J)
+static __attribute__((noinline)) void polyconvex_of_whole(const struct solver_material_constants *material,
+                                                          size_t stride, size_t count, const double *F, const double *H,
+                                                          const double *J, double *P)
 {
-    enum { WIDTH = DIM * LANES };
-    for (size_t k = 0; k < LOT; k++) {
-        size_t a = k < count ? k : count - 1;
-        to->material[k] = material[a * stride];
-        memcpy(to->F + k * WIDTH, F + a * WIDTH, WIDTH * sizeof *F);
-        if (H != NULL) {
-            memcpy(to->H + k * WIDTH, H + a * WIDTH, WIDTH * sizeof *H);
-        }
-        if (J != NULL) {
-            to->J[k] = J[a];
-        }
-    }
-}
-
-static void range_of(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
-                     const double *F, const double *H, const double *J, double *P, bool polyconvex)
-{
-    enum { WIDTH = DIM * LANES };
-    size_t rest = (end - begin) % LOT;
-    size_t last = end - rest;
-    stress_of_whole(material + begin * stride, stride, last - begin, F + begin * WIDTH,
-                    H != NULL ? H + begin * WIDTH : NULL, J != NULL ? J + begin : NULL, P + begin * WIDTH, polyconvex);
-    if (rest > 0) {
-        struct filled filled;
-        fill(&filled, material + last * stride, stride, rest, F + last * WIDTH, H != NULL ? H + last * WIDTH : NULL,
-             J != NULL ? J + last : NULL);
-        stress_of_whole(filled.material, 1, LOT, filled.F, H != NULL ? filled.H : NULL, J != NULL ? filled.J : NULL,
-                        filled.P, polyconvex);
-        memcpy(P + last * WIDTH, filled.P, rest * WIDTH * sizeof *P);
-    }
+    stresses(material, stride, count, F, H, J, P, true);
 }
 
 static void stress_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                          const double *F, const double *H, const double *J, double *P)
 {
-    range_of(material, stride, begin, end, F, H, J, P, false);
+    stress_by_lots(stress_of_whole, material, stride, begin, end, F, H, J, P);
 }
 
 static void stress_range_polyconvex(const struct solver_material_constants *material, size_t stride, size_t begin,
                                     size_t end, const double *F, const double *H, const double *J, double *P)
 {
-    range_of(material, stride, begin, end, F, H, J, P, true);
+    stress_by_lots(polyconvex_of_whole, material, stride, begin, end, F, H, J, P);
 }
 
 static void volumetric_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
@@ -343,17 +295,16 @@ static inline lot square_bound(const struct tensors *A)
     return bound;
 }
 
-/* Squares of speeds. */
 static __attribute__((noinline)) double fastest_of_whole(const struct solver_material_constants *material,
                                                          size_t stride, size_t count, const double *F)
 {
-    struct moduli here = moduli_of(material, 0);
+    struct constants here = {.mu = {0}};
     lot square = {0};
     for (size_t a = 0; a < count; a += LOT) {
-        if (stride != 0) {
-            here = moduli_of(material + a * stride, stride);
+        if (a == 0 || stride != 0) {
+            here = constants_of(material + a * stride, stride);
         }
-        struct tensors at = load_tensors(F + a * DIM * LANES);
+        struct tensors at = load_tensors(F + a * TENSOR_WIDTH);
         struct tensors cof = cofactors(&at);
         lot J = determinants(&at);
         lot per_J = 1.0 / J;
@@ -367,22 +318,13 @@ static __attribute__((noinline)) double fastest_of_whole(const struct solver_mat
     for (int k = 0; k < LOT; k++) {
         most = square[k] > most ? square[k] : most;
     }
-    return most;
+    return sqrt(most);
 }
 
 static double fastest(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                       const double *F)
 {
-    size_t rest = (end - begin) % LOT;
-    size_t last = end - rest;
-    double square = fastest_of_whole(material + begin * stride, stride, last - begin, F + begin * DIM * LANES);
-    if (rest > 0) {
-        struct filled filled;
-        fill(&filled, material + last * stride, stride, rest, F + last * DIM * LANES, NULL, NULL);
-        double more = fastest_of_whole(filled.material, 1, LOT, filled.F);
-        square = more > square ? more : square;
-    }
-    return sqrt(square);
+    return fastest_by_lots(fastest_of_whole, material, stride, begin, end, F);
 }
 
 /* --- operations (cost.h) --- */
