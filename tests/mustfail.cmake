@@ -141,6 +141,7 @@ assay_extreme_mutant(step-beyond-cfl 1 1 cfl "upwind sbp2 pF rk4, 1D")
 assay_extreme_mutant(interface-mean-slope 1 1 contrast "upwind sbp2")
 assay_extreme_mutant(interface-crossed 1 1 contrast "upwind sbp4")
 
+assay_unit_mutant(root-one-term-short solver_roots "so on every path, wide ones with the same bits")
 assay_unit_mutant(slope-across-interface solver_run_composite "energy where materials meet")
 assay_unit_mutant(single-step-without-meeting solver_run_composite
                   "a step for materials that differ ten thousand times")
