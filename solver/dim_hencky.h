@@ -196,8 +196,8 @@ static inline double d_coth(double d)
 
 /* Along N with w = F^-T N, for a unit vector m, rho c^2 of the elastic response to a change of F is
  *     lambda (m.w)^2 + 2 sum_i (mu - tau_i) m_i^2 w_i^2 + sum_{i<j} g_ij (m_i w_j + m_j w_i)^2 + sum_i tau_i w_i^2,
- * g_ij = mu d coth(d) - (tau_i + tau_j)/2 (material_hencky_dim.c). With M the largest of mu - tau_i and g_ij, the second and
- * third term are at most M (|w|^2 + (m.w)^2). */
+ * g_ij = mu d coth(d) - (tau_i + tau_j)/2 (material_hencky_dim.c). With M the largest of mu - tau_i and g_ij, the
+ * second and third term are at most M (|w|^2 + (m.w)^2). */
 static inline double modulus_bound(const struct solver_material_constants *material, const struct strains *strains)
 {
     double tau[DIM];

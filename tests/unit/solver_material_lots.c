@@ -123,8 +123,9 @@ static void wide_paths(const struct sample *sample)
     bool same =
         memcmp(stress_on[0], stress_on[1], KINDS * COUNT * bodies.dim * lanes_of(bodies.dim) * sizeof(double)) == 0;
     expect(sample, "stresses by avx2 and avx512 that differ", same ? 0.0 : 1.0, 0.0);
-    expect(sample, "speeds by avx2 and avx512 that differ", (double)memcmp(speed_on[0], speed_on[1], sizeof *speed_on),
-           0.0);
+    for (size_t a = 0; a < COUNT; a++) {
+        expect(sample, "speeds by avx2 and avx512 that differ", fabs(speed_on[0][a] - speed_on[1][a]), 0.0);
+    }
     solver_path_use(before);
     free(stress_on[0]);
     free(stress_on[1]);

@@ -80,8 +80,8 @@ static void test_paths(void)
             solver_material_find("neo-hookean-polyconvex")->in[0]->stress_range(&unit, 0, 0, COUNT, F, H, J, P[path]);
             for (int i = 0; i < COUNT; i++) {
                 worst = fmax(worst, ulps_off(J[i], P[path][i]));
+                CU_ASSERT(path < 2 || P[path][i] == P[1][i]);
             }
-            CU_ASSERT(path < 2 || memcmp(P[path], P[1], sizeof P[path]) == 0);
         }
     }
     printf("\n    at most %.3f ulp off", worst);
