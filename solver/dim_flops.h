@@ -1,4 +1,4 @@
-/* Operations of dim.h, dim_spectral.h and dim_sums.h, as cost.h counts them. */
+/* Operations of dim.h and dim_sums.h, as cost.h counts them. */
 #ifndef SOLVER_DIM_FLOPS_H
 #define SOLVER_DIM_FLOPS_H
 
@@ -19,11 +19,7 @@ enum {
                         : DIM == 2 ? 3
                                    : 0,
     FLOPS_TENSOR_CROSS = DIM == 3 ? 21 * LANES : 0,
-    FLOPS_ADD_SCALED = 2 * FLOPS_TENSOR, /* one vector, times each component of another, added to a tensor */
-    /* dim_spectral.h: a rotation; as many sweeps as strains usually take */
-    FLOPS_ROTATE = 10 + SOLVER_COST_FUNCTION + 18 * DIM,
-    FLOPS_SWEEPS = DIM == 3 ? 4 : 2 * (DIM - 1),
-    FLOPS_SPECTRUM = FLOPS_SWEEPS * (DIM * (DIM - 1) / 2) * FLOPS_ROTATE + (FLOPS_SWEEPS + 1) * (DIM * DIM + 1)
+    FLOPS_ADD_SCALED = 2 * FLOPS_TENSOR /* one vector, times each component of another, added to a tensor */
 };
 
 #endif

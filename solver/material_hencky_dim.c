@@ -1,128 +1,7 @@
-/* Hencky's model, quadratic in logarithmic strains, and von Mises plasticity with isotropic hardening upon it
- * (000_e9ec29e1bde7947d.txt, Algorithm 2):
- *     W = mu e' : e' + kappa/2 (ln J)^2,   e' = dev ln V_e,   V_e^2 = b_e = F Cp^-1 F^T,
- *     tau = 2 mu e' + kappa ln J 1,   P = dev(tau) F^-T + kappa ln(J)/J H.
- * An evolved J and H enter the volumetric part alone, as in the neo-Hookean model. In the algorithm ln J is subtracted
- * from the strains; here it is their own mean, so that e' is a deviator whatever round-off has done to det Cp.
- * Principal strains come from b_e - 1, which small strains leave exact: (F - 1) + (F - 1)^T + (F - 1) (F - 1)^T, and
- * what is remembered of Cp^-1 is its difference from the identity, for the same reason. */
-#include "solver/dim.h"
-#include "solver/dim_flops.h"
-#include "solver/dim_spectral.h"
-#include "solver/material.h"
+/* Hencky's model (dim_hencky.h). */
+#include "solver/dim_hencky.h"
 
-#include <math.h>
-
-enum {
-    WIDTH = DIM == 3   ? 7
-            : DIM == 2 ? 5
-                       : 3, /* of what a particle remembers */
-    NORMAL = WIDTH - 1      /* where the component out of the plane is, below 3D */
-};
-
-/* Where the in-plane components are. */
-#if DIM == 3
-static const int place[3][3] = {{1, 4, 6}, {4, 2, 5}, {6, 5, 3}};
-#elif DIM == 2
-static const int place[2][2] = {{1, 3}, {3, 2}};
-#else
-static const int place[1][1] = {{1}};
-#endif
-
-/* Principal logarithmic elastic strains, those of the plane first, their mean, and the directions in the plane. */
-struct strains {
-    double log[3], mean;
-    vec axis[DIM];
-};
-
-/* A B^T */
-static inline struct tensor times_transposed(struct tensor A, struct tensor B)
-{
-    struct tensor product = {{{0}}};
-    for (int j = 0; j < DIM; j++) {
-        for (int K = 0; K < DIM; K++) {
-            product.column[j] += A.column[K] * B.column[K][j];
-        }
-    }
-    return product;
-}
-
-/* `memory` NULL: nothing has flown. */
-static inline struct strains strains_of(struct tensor F, const double *memory)
-{
-    struct tensor G = F;
-    for (int I = 0; I < DIM; I++) {
-        G.column[I][I] -= 1.0;
-    }
-    struct tensor excess = times_transposed(G, G);
-    struct tensor turned = transpose(G);
-    struct tensor plastic = {{{0}}};
-    for (int I = 0; memory != NULL && I < DIM; I++) {
-        for (int K = 0; K < DIM; K++) {
-            plastic.column[I] += F.column[K] * memory[place[K][I]];
-        }
-    }
-    if (memory != NULL) {
-        plastic = times_transposed(plastic, F);
-    }
-    for (int I = 0; I < DIM; I++) {
-        excess.column[I] += G.column[I] + turned.column[I] + plastic.column[I];
-    }
-    struct spectrum of = spectrum(excess);
-    double normal = DIM < 3 && memory != NULL ? 0.5 * log1p(memory[NORMAL]) : 0.0;
-    struct strains strains = {.log = {normal, normal, normal}};
-    for (int i = 0; i < DIM; i++) {
-        strains.log[i] = 0.5 * log1p(of.value[i]);
-        strains.axis[i] = of.direction[i];
-    }
-    strains.mean = (strains.log[0] + strains.log[1] + strains.log[2]) / 3.0;
-    return strains;
-}
-
-/* sqrt(3/2 tau' : tau') [Pa] */
-static inline double equivalent(const struct solver_material_constants *material, const struct strains *strains)
-{
-    double square = 0.0;
-    for (int i = 0; i < 3; i++) {
-        square += (strains->log[i] - strains->mean) * (strains->log[i] - strains->mean);
-    }
-    return 2.0 * material->mu * sqrt(1.5 * square);
-}
-
-static inline struct tensor stress_of(const struct solver_material_constants *material, struct tensor F,
-                                      struct tensor H, double J, const struct strains *strains)
-{
-    struct tensor own = cofactor(F);
-    double per_volume = 1.0 / determinant(F);
-    double pressure = material->kappa * log(J) / J;
-    struct tensor P;
-    for (int I = 0; I < DIM; I++) {
-        P.column[I] = pressure * H.column[I];
-        for (int i = 0; i < DIM; i++) { /* F^-T n = cof(F) n / J */
-            double tau = 2.0 * material->mu * (strains->log[i] - strains->mean);
-            P.column[I] += (tau * per_volume * dot(own.column[I], strains->axis[i])) * strains->axis[i];
-        }
-    }
-    return P;
-}
-
-/* F = 1 out of the plane, where the cofactor is det F. */
-static inline double normal_of(const struct solver_material_constants *material, const double *F, double J,
-                               const double *memory)
-{
-    struct tensor at = from_rows(F);
-    struct strains strains = strains_of(at, memory);
-    return 2.0 * material->mu * (strains.log[2] - strains.mean) + material->kappa * log(J) / J * determinant(at);
-}
-
-static inline double energy_of(const struct solver_material_constants *material, const double *F, double J,
-                               const double *memory)
-{
-    struct strains strains = strains_of(from_rows(F), memory);
-    double q = equivalent(material, &strains);
-    double volumetric = log(J);
-    return q * q / (6.0 * material->mu) + 0.5 * material->kappa * volumetric * volumetric;
-}
+extern const struct solver_flow DIM_NAME(solver_hencky_flow);
 
 static double energy(const struct solver_material_constants *material, const double *F, const double *H, double J)
 {
@@ -130,29 +9,23 @@ static double energy(const struct solver_material_constants *material, const dou
     return energy_of(material, F, J, NULL);
 }
 
-/* Compiled once, so that the stress of a range is the pointwise one to the bit. */
-static __attribute__((noinline)) struct tensor elastic(const struct solver_material_constants *material,
-                                                       struct tensor F, struct tensor H, double J)
-{
-    struct strains strains = strains_of(F, NULL);
-    return stress_of(material, F, H, J, &strains);
-}
-
 static void stress(const struct solver_material_constants *material, const double *F, const double *H, double J,
                    double *P)
 {
-    to_rows(elastic(material, from_rows(F), from_rows(H), J), P);
+    struct tensors at = tensors_of(from_rows(F));
+    struct tensors cof = tensors_of(from_rows(H));
+    struct strains_of_lot strains = strains_of_all(&at, NULL);
+    struct tensors stresses = stress_of(constants_of(material, 0), &at, &cof, lot_of(J), &strains);
+    for (int i = 0; i < DIM; i++) {
+        for (int I = 0; I < DIM; I++) {
+            P[i * DIM + I] = stresses.column[I][i][0];
+        }
+    }
 }
 
 static double stress_normal(const struct solver_material_constants *material, const double *F, double J)
 {
     return normal_of(material, F, J, NULL);
-}
-
-/* d coth d, where d is the difference of two logarithmic strains. */
-static inline double d_coth(double d)
-{
-    return d == 0.0 ? 1.0 : d / tanh(d);
 }
 
 /* The tangent in principal axes, F = sum l_i n_i (x) N_i, e_i = ln l_i, tau_i principal stresses, d = e_i - e_j:
@@ -242,59 +115,48 @@ static void wave_speeds(const struct solver_material_constants *material, const 
     }
 }
 
-/* Along N with w = F^-T N, for a unit vector m, rho c^2 of the elastic response to a change of F is
- *     lambda (m.w)^2 + 2 sum_i (mu - tau_i) m_i^2 w_i^2 + sum_{i<j} g_ij (m_i w_j + m_j w_i)^2 + sum_i tau_i w_i^2,
- * g_ij = mu d coth(d) - (tau_i + tau_j)/2 (see moduli_of). With M the largest of mu - tau_i and g_ij, the second and
- * third term are at most M (|w|^2 + (m.w)^2). */
-static inline double modulus_bound(const struct solver_material_constants *material, const struct strains *strains)
+/* --- loops over particles (dim_ranges.h) --- */
+
+static __attribute__((noinline)) double fastest_of_whole(const struct solver_material_constants *material,
+                                                         size_t stride, size_t count, const double *F)
 {
-    double tau[DIM];
-    double most = -INFINITY;
-    double shear = -INFINITY;
-    for (int i = 0; i < DIM; i++) {
-        tau[i] = 2.0 * material->mu * (strains->log[i] - strains->mean) + 3.0 * material->kappa * strains->mean;
-        most = fmax(most, tau[i]);
-        shear = fmax(shear, material->mu - tau[i]);
-        for (int j = 0; j < i; j++) {
-            double coth = d_coth(strains->log[i] - strains->log[j]);
-            shear = fmax(shear, material->mu * coth - 0.5 * (tau[i] + tau[j]));
+    double square = 0.0;
+    for (size_t a = 0; a < count; a += LOT) {
+        struct tensors at = load_tensors(F + a * TENSOR_WIDTH);
+        struct strains_of_lot all = strains_of_all(&at, NULL);
+        for (int k = 0; k < LOT; k++) {
+            const struct solver_material_constants *here = material + (a + (size_t)k) * stride;
+            struct strains strains = strains_of_one(&all, k);
+            square = fmax(square, modulus_bound(here, &strains) * slowness(&strains) / here->rho);
         }
     }
-    double bound = shear + most + fmax(material->kappa - 2.0 / 3.0 * material->mu + shear, 0.0);
-    return fmax(bound, material->mu); /* a step remains where ellipticity is lost */
-}
-
-/* The largest |F^-T N|^2, from strains of F itself. */
-static inline double slowness(const struct strains *strains)
-{
-    double least = strains->log[0];
-    for (int i = 1; i < DIM; i++) {
-        least = fmin(least, strains->log[i]);
-    }
-    return exp(-2.0 * least);
+    return sqrt(square);
 }
 
 static double fastest(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                       const double *F)
 {
-    double square = 0.0;
-    for (size_t a = begin; a < end; a++) {
-        const struct solver_material_constants *here = material + a * stride;
-        struct strains strains = strains_of(load_tensor(F + a * DIM * LANES), NULL);
-        square = fmax(square, modulus_bound(here, &strains) * slowness(&strains) / here->rho);
+    return fastest_by_lots(fastest_of_whole, material, stride, begin, end, F);
+}
+
+static __attribute__((noinline)) void stress_of_whole(const struct solver_material_constants *material, size_t stride,
+                                                      size_t count, const double *F, const double *H, const double *J,
+                                                      double *P)
+{
+    for (size_t a = 0; a < count; a += LOT) {
+        struct tensors at = load_tensors(F + a * TENSOR_WIDTH);
+        struct tensors cof = H != NULL ? load_tensors(H + a * TENSOR_WIDTH) : cofactors(&at);
+        lot jacobian = J != NULL ? load_lot(J + a) : determinants(&at);
+        struct strains_of_lot strains = strains_of_all(&at, NULL);
+        struct tensors stresses = stress_of(constants_of(material + a * stride, stride), &at, &cof, jacobian, &strains);
+        store_tensors(P + a * TENSOR_WIDTH, &stresses);
     }
-    return sqrt(square);
 }
 
 static void stress_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                          const double *F, const double *H, const double *J, double *P)
 {
-    for (size_t a = begin; a < end; a++) {
-        struct tensor at = load_tensor(F + a * DIM * LANES);
-        struct tensor cof = H != NULL ? load_tensor(H + a * DIM * LANES) : cofactor(at);
-        double jacobian = J != NULL ? J[a] : determinant(at);
-        store_tensor(P + a * DIM * LANES, elastic(material + a * stride, at, cof, jacobian));
-    }
+    stress_by_lots(stress_of_whole, material, stride, begin, end, F, H, J, P);
 }
 
 static void volumetric_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
@@ -312,110 +174,8 @@ static void stiffness_range(size_t begin, size_t end, const double *J, double *s
     }
 }
 
-/* --- plastic flow --- */
-
-/* From trial strains to those on the yield surface, which are 1 - `part` of them, and what is remembered with them:
- * Cp^-1 grows by F^-1 (b_e - b_trial) F^-T = sum l_i^2 (exp(-2 part e'_i) - 1) (F^-1 n_i) (x) (F^-1 n_i). */
-static inline void return_to_surface(struct tensor F, double part, struct strains *strains, double *memory)
-{
-    struct tensor own = cofactor(F);
-    double per_volume = 1.0 / determinant(F);
-    for (int i = 0; i < 3; i++) {
-        double change = -part * (strains->log[i] - strains->mean);
-        double grown = exp(2.0 * strains->log[i]) * expm1(2.0 * change);
-        strains->log[i] += change;
-        if (i >= DIM) {
-            memory[NORMAL] += i == 2 ? grown : 0.0; /* in 1D both lateral directions are one */
-            continue;
-        }
-        for (int I = 0; I < DIM; I++) {
-            double along = grown * per_volume * per_volume * dot(own.column[I], strains->axis[i]);
-            for (int K = 0; K <= I; K++) {
-                memory[place[I][K]] += along * dot(own.column[K], strains->axis[i]);
-            }
-        }
-    }
-}
-
-static void flow_stress_range(const struct solver_material_constants *material, size_t stride,
-                              const struct solver_hardening *hardening, size_t begin, size_t end, const double *F,
-                              const double *H, const double *J, const double *before, double *now, double *P)
-{
-    for (size_t a = begin; a < end; a++) {
-        const struct solver_material_constants *here = material + a * stride;
-        struct tensor at = load_tensor(F + a * DIM * LANES);
-        struct tensor cof = H != NULL ? load_tensor(H + a * DIM * LANES) : cofactor(at);
-        double jacobian = J != NULL ? J[a] : determinant(at);
-        double *memory = now + a * WIDTH;
-        for (int k = 0; k < WIDTH; k++) {
-            memory[k] = before[a * WIDTH + (size_t)k];
-        }
-        struct strains strains = strains_of(at, memory);
-        double q = equivalent(here, &strains);
-        double flow = solver_hardening_flow(hardening, here->mu, q, memory[0]);
-        if (flow > 0.0) {
-            memory[0] += flow;
-            return_to_surface(at, 3.0 * here->mu * flow / q, &strains, memory);
-        }
-        store_tensor(P + a * DIM * LANES, stress_of(here, at, cof, jacobian, &strains));
-    }
-}
-
-static double flow_fastest(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
-                           const double *F, const double *now)
-{
-    double square = 0.0;
-    for (size_t a = begin; a < end; a++) {
-        const struct solver_material_constants *here = material + a * stride;
-        struct tensor at = load_tensor(F + a * DIM * LANES);
-        struct strains whole = strains_of(at, NULL);
-        struct strains strains = strains_of(at, now + a * WIDTH);
-        square = fmax(square, modulus_bound(here, &strains) * slowness(&whole) / here->rho);
-    }
-    return sqrt(square);
-}
-
-/* --- operations (cost.h) --- */
-
-enum {
-    PRODUCT = DIM * FLOPS_ADD_SCALED,
-    LOGARITHM = SOLVER_COST_FUNCTION + 1, /* a function and a factor */
-    STRAINS = DIM + PRODUCT + 3 * FLOPS_TENSOR + FLOPS_SPECTRUM + DIM * LOGARITHM + 3,
-    PLASTIC_STRAINS = STRAINS + 2 * PRODUCT + LOGARITHM,
-    STRESS =
-        FLOPS_COFACTOR + FLOPS_DETERMINANT + 1 + LOGARITHM + 1 + FLOPS_TENSOR + DIM * DIM * (5 + FLOPS_DOT + 2 * LANES),
-    MODULUS = 7 * DIM + DIM * (DIM - 1) / 2 * (LOGARITHM + 5) + 5,
-    FASTEST = MODULUS + LOGARITHM + 2,
-    YIELD = 12 + 4 + 3,          /* equivalent stress and its excess */
-    ENERGY = 16 + LOGARITHM + 6, /* of strains and J */
-    RETURN = FLOPS_COFACTOR + FLOPS_DETERMINANT + 1 + 3 * (2 * LOGARITHM + 4) +
-             DIM * (DIM * (3 + FLOPS_DOT) + DIM * (DIM + 1) / 2 * (FLOPS_DOT + 2)) + 7
-};
-
-static int stress_flops(bool H, bool J)
-{
-    return (H ? 0 : FLOPS_COFACTOR) + (J ? 0 : FLOPS_DETERMINANT) + STRAINS + STRESS;
-}
-
-/* Where it flows, with linear hardening. */
-static int flow_stress_flops(bool H, bool J)
-{
-    return stress_flops(H, J) + PLASTIC_STRAINS - STRAINS + YIELD + RETURN;
-}
-
-static const struct solver_flow plastic_flow = {
-    .width = WIDTH,
-    .stress_range = flow_stress_range,
-    .stress_flops = flow_stress_flops,
-    .fastest_flops = STRAINS + PLASTIC_STRAINS + FASTEST,
-    .energy_flops = PLASTIC_STRAINS + ENERGY,
-    .energy = energy_of,
-    .stress_normal = normal_of,
-    .fastest = flow_fastest,
-};
-
 const struct solver_material DIM_NAME(solver_hencky) = {
-    .flow = &plastic_flow,
+    .flow = &DIM_NAME(solver_hencky_flow),
     .energy = energy,
     .stress = stress,
     .stress_normal = stress_normal,
@@ -428,6 +188,6 @@ const struct solver_material DIM_NAME(solver_hencky) = {
     .volumetric_flops = LOGARITHM + 1,
     .stiffness_flops = SOLVER_COST_FUNCTION + 3,
     .fastest_flops = STRAINS + FASTEST,
-    .energy_flops = STRAINS + ENERGY,
+    .energy_flops = LOT * STRAINS + ENERGY,
     .fastest = fastest,
 };

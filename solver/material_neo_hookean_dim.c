@@ -7,15 +7,11 @@
  * P 2.9e-3 instead of 2.3e-3). F:F counts the directions out of the plane. */
 #include "solver/dim.h"
 #include "solver/dim_flops.h"
+#include "solver/dim_ranges.h"
+#include "solver/dim_roots.h"
 #include "solver/material.h"
 
 #include <math.h>
-
-/* As fmax, but no call; what is no number counts for nothing if it comes second. */
-static inline double larger(double known, double other)
-{
-    return other > known ? other : known;
-}
 
 static inline double invariant(struct tensor F)
 {
@@ -129,11 +125,11 @@ static void tangent(const struct solver_material_constants *material, const doub
  *     Q = shear I + mixed (f (x) h + h (x) f) + by_JJ h (x) h
  * Eigenvalues: shear across f and h, and shear + those of the rank-2 part, from its trace and determinant. Where only
  * norms of f and h are known this bounds the largest from above. */
-static double largest(double shear, double mixed, double by_JJ, double J, double ff, double hh, double *smallest)
+static inline lot largest(lot shear, lot mixed, lot by_JJ, lot J, lot ff, lot hh, lot *smallest)
 {
-    double half_trace = 0.5 * (2.0 * mixed * J + by_JJ * hh);
-    double minus_determinant = mixed * mixed * larger(0.0, ff * hh - J * J);
-    double root = sqrt(half_trace * half_trace + minus_determinant);
+    lot half_trace = 0.5 * (2.0 * mixed * J + by_JJ * hh);
+    lot minus_determinant = mixed * mixed * larger_lot((lot){0}, ff * hh - J * J);
+    lot root = sqrt_lot(half_trace * half_trace + minus_determinant);
     *smallest = shear + half_trace - root;
     return shear + half_trace + root;
 }
@@ -153,9 +149,11 @@ static void wave_speeds(const struct solver_material_constants *material, const 
         f += F.column[I] * N[I];
         h += H.column[I] * N[I];
     }
-    double low;
-    double high = largest(shear, -2.0 / 3.0 * shear / J, material->kappa + 5.0 / 9.0 * shear * FF / (J * J), J,
-                          dot(f, f), dot(h, h), &low);
+    double by_JJ = material->kappa + 5.0 / 9.0 * shear * FF / (J * J);
+    lot lows;
+    double high = largest(lot_of(shear), lot_of(-2.0 / 3.0 * shear / J), lot_of(by_JJ), lot_of(J), lot_of(dot(f, f)),
+                          lot_of(dot(h, h)), &lows)[0];
+    double low = lows[0];
     if (DIM == 1) { /* one of the two roots is not the line's: it is shear, across f and h */
         high += low - shear;
     }
@@ -173,27 +171,99 @@ static void wave_speeds(const struct solver_material_constants *material, const 
     }
 }
 
-static inline void range_of(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
-                            const double *F, const double *H, const double *J, double *P, bool polyconvex)
+/* --- loops over particles: the same, a lot at a time --- */
+
+/* What a loop is compiled for. */
+struct reading {
+    bool polyconvex, H, J; /* H and J of their own beside F */
+};
+
+static inline __attribute__((always_inline)) struct tensors
+stress_of_lot(struct constants of, const double *F, const double *H, const double *J, struct reading reading)
 {
-    for (size_t a = begin; a < end; a++) {
-        struct tensor at = load_tensor(F + a * DIM * LANES);
-        struct tensor cof = H != NULL ? load_tensor(H + a * DIM * LANES) : cofactor(at);
-        double jacobian = J != NULL ? J[a] : determinant(at);
-        store_tensor(P + a * DIM * LANES, stress_of(material + a * stride, at, cof, jacobian, polyconvex));
+    struct tensors at = load_tensors(F);
+    struct tensors cof = reading.H ? load_tensors(H) : cofactors(&at);
+    lot jacobian = reading.J ? load_lot(J) : determinants(&at);
+    lot isochoric = reading.J && !reading.polyconvex ? determinants(&at) : jacobian;
+    lot shear = of.mu * inverse_square_of_cube_root(isochoric);
+    lot by_isochoric = shear * (squares(&at) + (3.0 - DIM)) / (-3.0 * isochoric);
+    lot pressure = of.kappa * (jacobian - 1.0);
+    struct tensors P;
+    if (reading.polyconvex || !reading.H) { /* one cofactor goes with both terms */
+        by_isochoric += pressure;
     }
+    struct tensors own = reading.polyconvex || !reading.H ? cof : cofactors(&at);
+    for (int I = 0; I < DIM; I++) {
+        for (int i = 0; i < DIM; i++) {
+            P.column[I][i] = shear * at.column[I][i] + by_isochoric * own.column[I][i];
+            if (!reading.polyconvex && reading.H) {
+                P.column[I][i] += pressure * cof.column[I][i];
+            }
+        }
+    }
+    return P;
+}
+
+static inline __attribute__((always_inline)) void stresses_as(const struct solver_material_constants *material,
+                                                              size_t stride, size_t count, const double *F,
+                                                              const double *H, const double *J, double *P,
+                                                              struct reading reading)
+{
+    struct constants here = {.mu = {0}};
+    for (size_t a = 0; a < count; a += LOT) {
+        size_t at = a * TENSOR_WIDTH;
+        if (a == 0 || stride != 0) {
+            here = constants_of(material + a * stride, stride);
+        }
+        struct tensors stresses =
+            stress_of_lot(here, F + at, reading.H ? H + at : NULL, reading.J ? J + a : NULL, reading);
+        store_tensors(P + at, &stresses);
+    }
+}
+
+static inline __attribute__((always_inline)) void stresses(const struct solver_material_constants *material,
+                                                           size_t stride, size_t count, const double *F,
+                                                           const double *H, const double *J, double *P, bool polyconvex)
+{
+    struct reading reading = {.polyconvex = polyconvex};
+    if (H != NULL && J != NULL) {
+        reading.H = reading.J = true;
+        stresses_as(material, stride, count, F, H, J, P, reading);
+    } else if (H != NULL) {
+        reading.H = true;
+        stresses_as(material, stride, count, F, H, J, P, reading);
+    } else if (J != NULL) {
+        reading.J = true;
+        stresses_as(material, stride, count, F, H, J, P, reading);
+    } else {
+        stresses_as(material, stride, count, F, H, J, P, reading);
+    }
+}
+
+static __attribute__((noinline)) void stress_of_whole(const struct solver_material_constants *material, size_t stride,
+                                                      size_t count, const double *F, const double *H, const double *J,
+                                                      double *P)
+{
+    stresses(material, stride, count, F, H, J, P, false);
+}
+
+static __attribute__((noinline)) void polyconvex_of_whole(const struct solver_material_constants *material,
+                                                          size_t stride, size_t count, const double *F, const double *H,
+                                                          const double *J, double *P)
+{
+    stresses(material, stride, count, F, H, J, P, true);
 }
 
 static void stress_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                          const double *F, const double *H, const double *J, double *P)
 {
-    range_of(material, stride, begin, end, F, H, J, P, false);
+    stress_by_lots(stress_of_whole, material, stride, begin, end, F, H, J, P);
 }
 
 static void stress_range_polyconvex(const struct solver_material_constants *material, size_t stride, size_t begin,
                                     size_t end, const double *F, const double *H, const double *J, double *P)
 {
-    range_of(material, stride, begin, end, F, H, J, P, true);
+    stress_by_lots(polyconvex_of_whole, material, stride, begin, end, F, H, J, P);
 }
 
 static void volumetric_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
@@ -205,56 +275,77 @@ static void volumetric_range(const struct solver_material_constants *material, s
 }
 
 /* Largest row sum of |A^T A|: at least its largest eigenvalue, and equal to it at rest. */
-static double square_bound(struct tensor A)
+static inline lot square_bound(const struct tensors *A)
 {
-    double bound = 0.0;
+    lot sum[DIM];
     for (int I = 0; I < DIM; I++) {
-        double sum = 0.0;
-        for (int J = 0; J < DIM; J++) {
-            sum += fabs(dot(A.column[I], A.column[J]));
+        sum[I] = dot_lot(A->column[I], A->column[I]);
+    }
+    for (int I = 0; I < DIM; I++) {
+        for (int J = 0; J < I; J++) {
+            lot entry = magnitude(dot_lot(A->column[I], A->column[J]));
+            sum[I] += entry;
+            sum[J] += entry;
         }
-        bound = larger(bound, sum);
+    }
+    lot bound = sum[0];
+    for (int I = 1; I < DIM; I++) {
+        bound = larger_lot(bound, sum[I]);
     }
     return bound;
+}
+
+static __attribute__((noinline)) double fastest_of_whole(const struct solver_material_constants *material,
+                                                         size_t stride, size_t count, const double *F)
+{
+    struct constants here = {.mu = {0}};
+    lot square = {0};
+    for (size_t a = 0; a < count; a += LOT) {
+        if (a == 0 || stride != 0) {
+            here = constants_of(material + a * stride, stride);
+        }
+        struct tensors at = load_tensors(F + a * TENSOR_WIDTH);
+        struct tensors cof = cofactors(&at);
+        lot J = determinants(&at);
+        lot per_J = 1.0 / J;
+        lot shear = here.mu * inverse_square_of_cube_root(J);
+        lot by_JJ = here.kappa + 5.0 / 9.0 * shear * (squares(&at) + (3.0 - DIM)) * (per_J * per_J);
+        lot low;
+        lot modulus = largest(shear, -2.0 / 3.0 * shear * per_J, by_JJ, J, square_bound(&at), square_bound(&cof), &low);
+        square = larger_lot(square, modulus / here.rho);
+    }
+    double most = 0.0;
+    for (int k = 0; k < LOT; k++) {
+        most = square[k] > most ? square[k] : most;
+    }
+    return sqrt(most);
 }
 
 static double fastest(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                       const double *F)
 {
-    double square = 0.0;
-    for (size_t a = begin; a < end; a++) {
-        struct tensor at = load_tensor(F + a * DIM * LANES);
-        double J = determinant(at);
-        double FF = invariant(at);
-        double by_J;
-        const struct solver_material_constants *here = material + a * stride;
-        double shear = coefficients(here, FF, J, &by_J);
-        double low;
-        double modulus = largest(shear, -2.0 / 3.0 * shear / J, here->kappa + 5.0 / 9.0 * shear * FF / (J * J), J,
-                                 square_bound(at), square_bound(cofactor(at)), &low);
-        square = larger(square, modulus / here->rho);
-    }
-    return sqrt(square);
+    return fastest_by_lots(fastest_of_whole, material, stride, begin, end, F);
 }
 
+/* --- operations (cost.h) --- */
+
 enum {
-    INVARIANT = FLOPS_CONTRACT + 1,
-    ROOT = 2 + SOLVER_COST_FUNCTION, /* mu / cbrt(J J) */
-    MEASURES = FLOPS_COFACTOR + FLOPS_DETERMINANT,
-    BOUND = DIM * DIM * (FLOPS_DOT + 1), /* square_bound */
-    ENERGY = INVARIANT + ROOT + 9,       /* of J */
-    FASTEST = MEASURES + INVARIANT + ROOT + 6 + 2 + 5 + 2 * BOUND + 17 + 1
+    INVARIANT = LOT_SQUARES + 1,
+    ROOT = 1 + LOT_ROOT,
+    BOUND = DIM * (DIM + 1) / 2 * LOT_DOT + DIM * (DIM - 1), /* square_bound */
+    FASTEST = LOT_COFACTOR + LOT_DETERMINANT + 1 + ROOT + INVARIANT + 5 + 2 + 2 * BOUND + 17 + 1,
+    ENERGY = FLOPS_CONTRACT + 1 + 2 + SOLVER_COST_FUNCTION + 9 /* of J */
 };
 
 static int stress_flops(bool H, bool J)
 {
-    return (H ? 0 : FLOPS_COFACTOR) + (J ? 0 : FLOPS_DETERMINANT) + MEASURES + ROOT + INVARIANT + 3 + 2 +
-           5 * FLOPS_TENSOR;
+    (void)J; /* det F is needed with an evolved one, too */
+    return LOT_COFACTOR + LOT_DETERMINANT + INVARIANT + ROOT + 3 + 2 + (H ? 5 * DIM * DIM : 1 + 3 * DIM * DIM);
 }
 
 static int stress_flops_polyconvex(bool H, bool J)
 {
-    return stress_flops(H, J) - MEASURES;
+    return (H ? 0 : LOT_COFACTOR) + (J ? 0 : LOT_DETERMINANT) + INVARIANT + ROOT + 3 + 2 + 1 + 3 * DIM * DIM;
 }
 
 const struct solver_material DIM_NAME(solver_neo_hookean) = {

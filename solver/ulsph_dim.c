@@ -407,7 +407,7 @@ static void geometry_terms(const struct solver_ulsph *work, double pairs, double
     double moments = DIM * (2.0 + 2.0 * LANES);
     double positive = DIM == 1   ? 0.0
                       : DIM == 2 ? 10.0 + SOLVER_COST_FUNCTION + FLOPS_TENSOR
-                                 : FLOPS_SPECTRUM + DIM * DIM * (1.0 + 2.0 * LANES);
+                                 : FLOPS_SPECTRUM_ALONE + DIM * DIM * (1.0 + 2.0 * LANES);
     solver_cost_term(terms, "pair records", 1, pairs * kernel_flops + particles * 2.0);
     solver_cost_term(terms, "corrective matrix L", 1,
                      pairs * moments +

@@ -8,7 +8,7 @@ if(CMAKE_C_COMPILER_ID STREQUAL "GNU" AND NOT ASSAY_SANITIZE)
   add_library(counted_flags INTERFACE)
   # As written: nothing is folded, shared or fused.
   target_compile_options(counted_flags INTERFACE -O0 -include ${counted}/counted.h -Wno-psabi -w)
-  target_include_directories(counted_flags INTERFACE ${CMAKE_SOURCE_DIR})
+  target_include_directories(counted_flags INTERFACE ${counted}/in_place ${CMAKE_SOURCE_DIR})
   target_link_libraries(counted_flags INTERFACE PkgConfig::ASSAY_LUA PkgConfig::CUNIT)
   set(counted_objects)
   foreach(dim 1 2 3)

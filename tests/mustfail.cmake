@@ -147,6 +147,7 @@ assay_unit_mutant(step-of-the-mean-spacing solver_perturbed "steps are short eno
 assay_unit_mutant(ulsph-crossed solver_interfaces "kernels end there")
 assay_unit_mutant(ulsph-impedance-of-the-heavier solver_run_composite "the step where kernels cross")
 assay_unit_mutant(ulsph-step-without-meeting solver_run_composite "the step where kernels cross")
+assay_unit_mutant(root-one-term-short solver_roots "so on every path, wide ones with the same bits")
 assay_unit_mutant(slope-across-interface solver_run_composite "energy where materials meet")
 assay_unit_mutant(step-without-meeting solver_run_composite
                   "a step for materials that differ ten thousand times")

@@ -1,0 +1,221 @@
+/* A lot: one number of each of LOT particles side by side in a register, for loops over particles that need no
+ * neighbour. No operation takes a number from one lane to another: what a particle gets does not depend on which others
+ * are beside it, nor on how many. (A group, dim_group.h, has whole vectors of few particles, for loops over pairs.) */
+#ifndef SOLVER_DIM_LOTS_H
+#define SOLVER_DIM_LOTS_H
+
+#include "solver/dim.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+enum { LOT = 4 };
+typedef double lot __attribute__((vector_size(LOT * sizeof(double))));
+/* All bits of a lane are set, or none: what a comparison gives. */
+typedef __typeof__((lot){0} > (lot){0}) lot_mask;
+
+static inline lot lot_of(double a)
+{
+    return (lot){a, a, a, a};
+}
+
+static inline lot select_lot(lot_mask where, lot a, lot b)
+{
+    return (lot)((where & (lot_mask)a) | (~where & (lot_mask)b));
+}
+
+/* As fmax; what is no number counts for nothing if it comes second. */
+static inline lot larger_lot(lot known, lot other)
+{
+    return select_lot(other > known, other, known);
+}
+
+static inline bool all_lot(lot_mask mask)
+{
+    return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
+}
+
+static inline lot sqrt_lot(lot a)
+{
+#ifdef __AVX__
+    return _mm256_sqrt_pd(a);
+#else
+    return (lot){sqrt(a[0]), sqrt(a[1]), sqrt(a[2]), sqrt(a[3])};
+#endif
+}
+
+/* Numbers of LOT particles that follow each other, anywhere. */
+typedef double lot_anywhere __attribute__((vector_size(LOT * sizeof(double)), aligned(sizeof(double))));
+
+static inline lot load_lot(const double *from)
+{
+    return *(const lot_anywhere *)from;
+}
+
+static inline void store_lot(double *to, lot value)
+{
+    *(lot_anywhere *)to = value;
+}
+
+/* Vectors of LOT particles by components, and back. */
+static inline void vectors_apart(const vec of[LOT], lot component[DIM])
+{
+#if DIM == 3
+    lot low[2];
+    lot high[2];
+    for (int k = 0; k < 2; k++) {
+        low[k] = __builtin_shufflevector(of[2 * k], of[2 * k + 1], 0, 4, 2, 6);
+        high[k] = __builtin_shufflevector(of[2 * k], of[2 * k + 1], 1, 5, 3, 7);
+    }
+    component[0] = __builtin_shufflevector(low[0], low[1], 0, 1, 4, 5);
+    component[1] = __builtin_shufflevector(high[0], high[1], 0, 1, 4, 5);
+    component[2] = __builtin_shufflevector(low[0], low[1], 2, 3, 6, 7);
+#elif DIM == 2
+    lot even = __builtin_shufflevector(of[0], of[2], 0, 1, 2, 3);
+    lot odd = __builtin_shufflevector(of[1], of[3], 0, 1, 2, 3);
+    component[0] = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    component[1] = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+#else
+    component[0] = (lot){of[0][0], of[1][0], of[2][0], of[3][0]};
+#endif
+}
+
+static inline void vectors_together(const lot component[DIM], vec of[LOT])
+{
+#if DIM == 3
+    lot none = {0};
+    lot even[2] = {__builtin_shufflevector(component[0], component[1], 0, 4, 2, 6),
+                   __builtin_shufflevector(component[2], none, 0, 4, 2, 6)};
+    lot odd[2] = {__builtin_shufflevector(component[0], component[1], 1, 5, 3, 7),
+                  __builtin_shufflevector(component[2], none, 1, 5, 3, 7)};
+    of[0] = __builtin_shufflevector(even[0], even[1], 0, 1, 4, 5);
+    of[1] = __builtin_shufflevector(odd[0], odd[1], 0, 1, 4, 5);
+    of[2] = __builtin_shufflevector(even[0], even[1], 2, 3, 6, 7);
+    of[3] = __builtin_shufflevector(odd[0], odd[1], 2, 3, 6, 7);
+#elif DIM == 2
+    lot even = __builtin_shufflevector(component[0], component[1], 0, 4, 2, 6);
+    lot odd = __builtin_shufflevector(component[0], component[1], 1, 5, 3, 7);
+    of[0] = __builtin_shufflevector(even, even, 0, 1);
+    of[1] = __builtin_shufflevector(odd, odd, 0, 1);
+    of[2] = __builtin_shufflevector(even, even, 2, 3);
+    of[3] = __builtin_shufflevector(odd, odd, 2, 3);
+#else
+    for (int k = 0; k < LOT; k++) {
+        of[k] = (vec){component[0][k]};
+    }
+#endif
+}
+
+/* Tensors of LOT particles, by columns as in dim.h. */
+struct tensors {
+    lot column[DIM][DIM];
+};
+
+/* Tensors of a field, from that of one particle on. */
+static inline struct tensors load_tensors(const double *from)
+{
+    struct tensors T;
+    for (int I = 0; I < DIM; I++) {
+        vec of[LOT];
+        for (int k = 0; k < LOT; k++) {
+            of[k] = load(from + (k * DIM + I) * LANES);
+        }
+        vectors_apart(of, T.column[I]);
+    }
+    return T;
+}
+
+static inline void store_tensors(double *to, const struct tensors *T)
+{
+    for (int I = 0; I < DIM; I++) {
+        vec of[LOT];
+        vectors_together(T->column[I], of);
+        for (int k = 0; k < LOT; k++) {
+            store(to + (k * DIM + I) * LANES, of[k]);
+        }
+    }
+}
+
+/* The same tensor in each lane. */
+static inline struct tensors tensors_of(struct tensor T)
+{
+    struct tensors all;
+    for (int I = 0; I < DIM; I++) {
+        for (int i = 0; i < DIM; i++) {
+            all.column[I][i] = lot_of(T.column[I][i]);
+        }
+    }
+    return all;
+}
+
+static inline lot dot_lot(const lot a[DIM], const lot b[DIM])
+{
+    lot sum = a[0] * b[0];
+    for (int i = 1; i < DIM; i++) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+#if DIM == 3
+static inline void cross_lot(const lot a[3], const lot b[3], lot product[3])
+{
+    product[0] = a[1] * b[2] - a[2] * b[1];
+    product[1] = a[2] * b[0] - a[0] * b[2];
+    product[2] = a[0] * b[1] - a[1] * b[0];
+}
+#endif
+
+static inline struct tensors cofactors(const struct tensors *F)
+{
+    struct tensors H;
+#if DIM == 3
+    cross_lot(F->column[1], F->column[2], H.column[0]);
+    cross_lot(F->column[2], F->column[0], H.column[1]);
+    cross_lot(F->column[0], F->column[1], H.column[2]);
+#elif DIM == 2
+    H.column[0][0] = F->column[1][1];
+    H.column[0][1] = -F->column[1][0];
+    H.column[1][0] = -F->column[0][1];
+    H.column[1][1] = F->column[0][0];
+#else
+    (void)F;
+    H.column[0][0] = lot_of(1.0);
+#endif
+    return H;
+}
+
+static inline lot determinants(const struct tensors *F)
+{
+#if DIM == 3
+    lot normal[3];
+    cross_lot(F->column[1], F->column[2], normal);
+    return dot_lot(F->column[0], normal);
+#elif DIM == 2
+    return F->column[0][0] * F->column[1][1] - F->column[1][0] * F->column[0][1];
+#else
+    return F->column[0][0];
+#endif
+}
+
+/* A : A */
+static inline lot squares(const struct tensors *A)
+{
+    lot sum = dot_lot(A->column[0], A->column[0]);
+    for (int I = 1; I < DIM; I++) {
+        sum += dot_lot(A->column[I], A->column[I]);
+    }
+    return sum;
+}
+
+/* As FLOPS_ of dim_flops.h: of one particle. */
+enum {
+    LOT_DOT = 2 * DIM - 1,
+    LOT_COFACTOR = DIM == 3 ? 27 : 0,
+    LOT_DETERMINANT = DIM == 3   ? 9 + LOT_DOT
+                      : DIM == 2 ? 3
+                                 : 0,
+    LOT_SQUARES = DIM * LOT_DOT + DIM - 1
+};
+
+#endif
