@@ -6,10 +6,11 @@
  * so u . M u = sum over pairs step^2 / w. Of smooth alpha with beta = grad alpha only third derivatives are left, so
  * that the condition number grows like n^6. The preconditioner is one cycle over nested spaces: particles, then
  * quadratic splines alpha(X), beta = grad alpha, on grids that are coarser by 2 each (closure_grid.c), with polynomial
- * smoothing, and a dense solution on the coarsest. The iteration is that of conjugate residuals: M is singular,
- * quadratic alpha have no energy, and what round-off leaves of r there would grow in conjugate gradients. Work and
- * memory grow with the number of pairs, but on a lattice whose support holds nearest layers only: there alpha that vary
- * along one axis alone have no energy either, and iterations grow with the number of particles along an edge. */
+ * smoothing, on particles in single precision (closure_smooth_dim.c), and a dense solution on the coarsest. The
+ * iteration is that of conjugate residuals: M is singular, quadratic alpha have no energy, and what round-off leaves of
+ * r there would grow in conjugate gradients. Work and memory grow with the number of pairs, but on a lattice whose
+ * support holds nearest layers only: there alpha that vary along one axis alone have no energy either, and iterations
+ * grow with the number of particles along an edge. */
 #ifndef SOLVER_CLOSURE_H
 #define SOLVER_CLOSURE_H
 
