@@ -12,6 +12,8 @@
 enum { SMOOTH = 6, GRID_SMOOTH = 2, PATIENCE = 40 };
 /* Bound of the eigenvalues of M over its diagonal blocks: on a pair, (x + y)^2 <= 2 x^2 + 2 y^2. */
 static const double largest = 2.0;
+/* The cycle rounds to single precision, and z, moved step by step, is made anew when the residual has fallen so far. */
+static const double anew = 1e-3;
 
 static size_t width_of(const struct solver_closure *of)
 {
@@ -113,36 +115,41 @@ static void grid_cycle(struct solver_closure *of, int level)
     grid_smooth(of, grid, 0, false);
 }
 
-/* The same on the particles: of->step is the step before `first`, of->left the residual. */
-static void smooth(struct solver_closure *of, double *x, int first, bool residual)
+/* The same on the particles, all steps but the first; the last is left to be made. */
+static void smooth(struct solver_closure *of)
 {
-    static const double one[4] __attribute__((aligned(64))) = {1.0, 1.0, 1.0, 1.0};
-    for (int i = first; i < SMOOTH + residual; i++) {
-        double *next = i < SMOOTH ? of->next : NULL;
-        OVER_PIECES(of->cloud->count, of->loops->smooth(of, keep_of(i), factor_of(i) / largest, of->step, x, of->left,
-                                                        next, at.begin, at.end));
-        swap(&of->step, &of->next);
-    }
-    if (!residual) {
-        OVER_PIECES(of->cloud->count, of->loops->add(of, one, of->step, x, at.begin, at.end));
+    for (int i = 1; i < SMOOTH; i++) {
+        OVER_PIECES(of->cloud->count,
+                    of->smoother->smooth(of, (float)keep_of(i), (float)(factor_of(i) / largest), at.begin, at.end));
+        float *kept = of->step;
+        of->step = of->next;
+        of->next = kept;
     }
 }
 
+/* Smoothing makes small, rough changes, which single precision holds. What they leave, and what the splines do, is seen
+ * in double: splines are large and smooth, and of their differences next to nothing must be left. */
 void solver_closure_cycle(struct solver_closure *of, const double *r, double *z)
 {
     const struct solver_closure_loops *loops = of->loops;
+    const struct solver_closure_smoother *smoother = of->smoother;
     size_t count = of->cloud->count;
-    size_t bytes = count * width_of(of) * sizeof(double);
-    memcpy(of->left, r, bytes);
-    memset(z, 0, bytes);
-    OVER_PIECES(count, loops->precondition(of, factor_of(0) / largest, r, of->step, at.begin, at.end));
-    smooth(of, z, 1, true);
-    OVER_PIECES(of->cell_count, loops->sum_cells(of, of->left, at.begin, at.end));
-    OVER_PIECES(of->grid[0].count, loops->sum_splines(of, of->grid[0].r, at.begin, at.end));
-    grid_cycle(of, 0);
-    memset(of->step, 0, bytes);
-    OVER_PIECES(count, loops->spread(of, of->grid[0].x, of->step, at.begin, at.end));
-    smooth(of, z, 0, false);
+    float factor = (float)(factor_of(0) / largest);
+    memset(z, 0, count * width_of(of) * sizeof(double));
+    memset(of->z_image, 0, count * width_of(of) * sizeof(double));
+    for (int half = 0; half < 2; half++) {
+        OVER_PIECES(count, smoother->start(of, factor, r, of->z_image, at.begin, at.end));
+        smooth(of);
+        OVER_PIECES(count, smoother->finish(of, z, at.begin, at.end));
+        if (half == 0) {
+            OVER_PIECES(count, loops->apply(of, z, of->z_image, at.begin, at.end));
+            OVER_PIECES(of->cell_count, loops->sum_cells(of, r, of->z_image, at.begin, at.end));
+            OVER_PIECES(of->grid[0].count, loops->sum_splines(of, of->grid[0].r, at.begin, at.end));
+            grid_cycle(of, 0);
+            OVER_PIECES(count, loops->spread(of, of->grid[0].x, z, at.begin, at.end));
+            OVER_PIECES(count, loops->apply(of, z, of->z_image, at.begin, at.end));
+        }
+    }
 }
 
 /* --- the iteration --- */
@@ -189,7 +196,7 @@ double solver_closure_solve(struct solver_closure *of, double enough, int most)
     double square[4] = {0}, before[4], curve[4];
     double factor[4] __attribute__((aligned(64))) = {0};
     double back[4] __attribute__((aligned(64))) = {0};
-    double left = solver_closure_largest(of, of->residual), best = left;
+    double left = solver_closure_largest(of, of->residual), best = left, refreshed = left;
     memset(of->solution, 0, bytes);
     solver_closure_cycle(of, of->residual, of->z);
     OVER_PIECES(count, loops->apply(of, of->z, of->z_image, at.begin, at.end));
@@ -204,6 +211,11 @@ double solver_closure_solve(struct solver_closure *of, double enough, int most)
         OVER_PIECES(count, loops->add(of, factor, of->direction, of->solution, at.begin, at.end);
                     loops->add(of, back, of->image, of->residual, at.begin, at.end);
                     loops->add(of, back, of->back, of->z, at.begin, at.end));
+        left = solver_closure_largest(of, of->residual);
+        if (left < anew * refreshed) {
+            solver_closure_cycle(of, of->residual, of->z);
+            refreshed = left;
+        }
         OVER_PIECES(count, loops->apply(of, of->z, of->z_image, at.begin, at.end));
         memcpy(before, square, sizeof square);
         dot(of, of->z, of->z_image, square);
@@ -211,7 +223,6 @@ double solver_closure_solve(struct solver_closure *of, double enough, int most)
         OVER_PIECES(count, loops->scale_add(of, factor, of->z, of->direction, at.begin, at.end);
                     loops->scale_add(of, factor, of->z_image, of->image, at.begin, at.end));
         of->iterations++;
-        left = solver_closure_largest(of, of->residual);
         if (left < 0.5 * best) {
             best = left;
             since = 0;
@@ -224,23 +235,33 @@ bool solver_closure_open(struct solver_closure *of, const struct solver_cloud *c
                          struct solver_error *error)
 {
     static const struct solver_closure_loops *const loops[][3] = SOLVER_LOOPS(solver_closure);
+    static const struct solver_closure_smoother *const smoothers[][3] = SOLVER_LOOPS(solver_closure_smoother);
     size_t count = cloud->count, dim = (size_t)cloud->dim;
     of->cloud = cloud;
     of->graph = graph;
     of->loops = loops[solver_path()][dim - 1];
+    of->smoother = smoothers[solver_path()][dim - 1];
     of->scale = 0.5 / cloud->spacing;
     size_t lanes = of->loops->lanes;
     size_t room = count * (dim + 1) * lanes;
-    double **const vectors[] = {&of->residual, &of->solution, &of->direction, &of->image, &of->z,
-                                &of->z_image,  &of->back,     &of->left,      &of->step,  &of->next};
+    double **const vectors[] = {&of->residual, &of->solution, &of->direction, &of->image,
+                                &of->z,        &of->z_image,  &of->back};
+    float **const narrow[] = {&of->change, &of->left, &of->step, &of->next};
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         if (!solver_alloc((void **)vectors[i], room, sizeof(double), "multipliers", error)) {
             return false;
         }
     }
+    for (size_t i = 0; i < sizeof narrow / sizeof *narrow; i++) {
+        if (!solver_alloc((void **)narrow[i], count * of->smoother->width, sizeof(float), "multipliers", error)) {
+            return false;
+        }
+    }
     if (!solver_alloc((void **)&of->X, count * lanes, sizeof(double), "places", error) ||
         !solver_alloc((void **)&of->weight, graph->row[count], sizeof(double), "pair weights", error) ||
-        !solver_alloc((void **)&of->inverse, count * (dim + 1) * (dim + 1), sizeof(double), "diagonal blocks", error) ||
+        !solver_alloc((void **)&of->pair, graph->row[count] * 4, sizeof(float), "pair weights", error) ||
+        !solver_alloc((void **)&of->own, count * 16, sizeof(float), "diagonal blocks", error) ||
+        !solver_alloc((void **)&of->inverse, count * 16, sizeof(float), "diagonal blocks", error) ||
         !solver_alloc((void **)&of->partial, solver_pieces(count) * lanes, sizeof(double), "sums", error)) {
         return false;
     }
@@ -254,7 +275,7 @@ bool solver_closure_open(struct solver_closure *of, const struct solver_cloud *c
 
 bool solver_closure_ready(struct solver_closure *of, double radius, struct solver_error *error)
 {
-    OVER_PIECES(of->cloud->count, of->loops->blocks(of, at.begin, at.end));
+    OVER_PIECES(of->cloud->count, of->smoother->prepare(of, at.begin, at.end));
     return solver_closure_grids(of, radius, error);
 }
 
@@ -268,11 +289,14 @@ void solver_closure_close(struct solver_closure *of)
     free(of->z);
     free(of->z_image);
     free(of->back);
+    free(of->change);
     free(of->left);
     free(of->step);
     free(of->next);
     free(of->X);
     free(of->weight);
+    free(of->pair);
+    free(of->own);
     free(of->inverse);
     free(of->partial);
 }

@@ -6,10 +6,11 @@
  * so u . M u = sum over pairs step^2 / w. Of smooth alpha with beta = grad alpha only third derivatives are left, so
  * that the condition number grows like n^6. The preconditioner is one cycle over nested spaces: particles, then
  * quadratic splines alpha(X), beta = grad alpha, on grids that are coarser by 2 each (closure_grid.c), with polynomial
- * smoothing, and a dense solution on the coarsest. The iteration is that of conjugate residuals: M is singular,
- * quadratic alpha have no energy, and what round-off leaves of r there would grow in conjugate gradients. Work and
- * memory grow with the number of pairs, but on a lattice whose support holds nearest layers only: there alpha that vary
- * along one axis alone have no energy either, and iterations grow with the number of particles along an edge. */
+ * smoothing, on particles in single precision (closure_smooth_dim.c), and a dense solution on the coarsest. The
+ * iteration is that of conjugate residuals: M is singular, quadratic alpha have no energy, and what round-off leaves of
+ * r there would grow in conjugate gradients. Work and memory grow with the number of pairs, but on a lattice whose
+ * support holds nearest layers only: there alpha that vary along one axis alone have no energy either, and iterations
+ * grow with the number of particles along an edge. */
 #ifndef SOLVER_CLOSURE_H
 #define SOLVER_CLOSURE_H
 
@@ -43,10 +44,10 @@ struct solver_closure {
     const struct solver_cloud *cloud;
     const struct solver_graph *graph;
     const struct solver_closure_loops *loops;
-    double *X;       /* [count][lanes] places [m] */
-    double scale;    /* half a spacing's reciprocal [1/m]: turns distances into halves in spacings */
-    double *weight;  /* [pairs] */
-    double *inverse; /* [count][dim + 1][dim + 1] of the blocks on M's diagonal */
+    const struct solver_closure_smoother *smoother;
+    double *X;      /* [count][lanes] places [m] */
+    double scale;   /* half a spacing's reciprocal [1/m]: turns distances into halves in spacings */
+    double *weight; /* [pairs] */
     /* cells of the finest grid */
     double origin[3], width; /* [m] */
     size_t cell_count;
@@ -59,22 +60,19 @@ struct solver_closure {
     double *cell_sum;        /* [cell_count][3^dim][lanes] */
     int levels;
     struct solver_closure_grid grid[SOLVER_CLOSURE_LEVELS];
-    /* the iteration and the cycle, [count][dim + 1][lanes] each */
-    double *residual, *solution, *direction, *image, *z, *z_image, *back, *left, *step, *next;
+    /* the iteration, [count][dim + 1][lanes] each */
+    double *residual, *solution, *direction, *image, *z, *z_image, *back;
     double *partial; /* [pieces][lanes] */
-    int iterations;  /* taken so far, in all solutions */
+    /* smoothing, in single precision (closure_smooth_dim.c) */
+    float *pair;                        /* [pairs][4] sqrt(w) (-1, d/2) */
+    float *own, *inverse;               /* [count][4][4] the blocks on M's diagonal, and their inverses */
+    float *change, *left, *step, *next; /* [count][smoother's width] */
+    int iterations;                     /* taken so far, in all solutions */
 };
 
 struct solver_closure_loops {
     size_t lanes;
-    void (*blocks)(struct solver_closure *of, size_t begin, size_t end);
     void (*apply)(const struct solver_closure *of, const double *u, double *out, size_t begin, size_t end);
-    /* out = factor * M's diagonal blocks^-1 r */
-    void (*precondition)(const struct solver_closure *of, double factor, const double *r, double *out, size_t begin,
-                         size_t end);
-    /* x += d, r -= M d, next = keep d + factor * blocks^-1 r */
-    void (*smooth)(const struct solver_closure *of, double keep, double factor, const double *d, double *x, double *r,
-                   double *next, size_t begin, size_t end);
     void (*dot)(const double *x, const double *y, double *sum, size_t begin, size_t end);
     /* x += factor y, or x = factor x + y, a factor per component */
     void (*add)(const struct solver_closure *of, const double *factor, const double *y, double *x, size_t begin,
@@ -88,18 +86,33 @@ struct solver_closure_loops {
     void (*residuals)(const struct solver_closure *of, const double *area, const double *V, double per_face,
                       const double *pair, double *r, size_t begin, size_t end);
     /* The finest splines: their matrix's rows from pairs that begin in cells [begin, end), dense over 7^dim
-     * neighbours; sums over particles; values on particles, added to u. */
+     * neighbours; sums of r - image over particles; values on particles, added to u. */
     void (*assemble)(const struct solver_closure *of, double *dense, size_t begin, size_t end);
-    void (*sum_cells)(const struct solver_closure *of, const double *r, size_t begin, size_t end);
+    void (*sum_cells)(const struct solver_closure *of, const double *r, const double *image, size_t begin, size_t end);
     void (*sum_splines)(const struct solver_closure *of, double *r, size_t begin, size_t end);
     void (*spread)(const struct solver_closure *of, const double *x, double *u, size_t begin, size_t end);
-    /* On a grid: the same as `smooth`; from a grid to the next coarser one, and back, adding. */
+    /* On a grid: x += d, r -= A d, next = keep d + factor * diagonal^-1 r; from a grid to the next coarser one, and
+     * back, adding. */
     void (*grid_smooth)(const struct solver_closure_grid *grid, double keep, double factor, const double *d, double *x,
                         double *r, double *next, size_t begin, size_t end);
     void (*grid_sum)(const struct solver_closure_grid *fine, const double *r, double *out, size_t begin, size_t end);
     void (*grid_spread)(const struct solver_closure_grid *fine, const double *x, double *out, size_t begin, size_t end);
 };
 SOLVER_DECLARE_LOOPS(struct solver_closure_loops, solver_closure);
+
+/* Smoothing: the change made so far, the step that is about to be made, and the residual that the change has left. */
+struct solver_closure_smoother {
+    size_t width;
+    void (*prepare)(struct solver_closure *of, size_t begin, size_t end);
+    /* left = r - image, change = 0, step = factor * M's diagonal blocks^-1 left */
+    void (*start)(const struct solver_closure *of, float factor, const double *r, const double *image, size_t begin,
+                  size_t end);
+    /* change += step, left -= M step, next = keep step + factor * blocks^-1 left */
+    void (*smooth)(const struct solver_closure *of, float keep, float factor, size_t begin, size_t end);
+    /* z += change + step */
+    void (*finish)(const struct solver_closure *of, double *z, size_t begin, size_t end);
+};
+SOLVER_DECLARE_LOOPS(struct solver_closure_smoother, solver_closure_smoother);
 
 /* What a spline at a place has of parent 0 or 1 along an axis: the next coarser spline is (1, 3, 3, 1) / 4 of these. */
 static inline double solver_closure_share(int32_t place, int parent)

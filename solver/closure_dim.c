@@ -2,9 +2,7 @@
 #include "solver/closure.h"
 
 #include "solver/dim.h"
-#include "solver/small.h"
 
-#include <math.h>
 #include <string.h>
 
 enum {
@@ -45,40 +43,6 @@ static inline vec step_of(const double *u, size_t a, size_t b, vec half)
     return step;
 }
 
-static void blocks(struct solver_closure *of, size_t begin, size_t end)
-{
-    const struct solver_graph *graph = of->graph;
-    for (size_t a = begin; a < end; a++) {
-        double block[4][4] = {{0}};
-        for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
-            vec half = half_distance(of, a, graph->neighbour[ab]);
-            double g[WIDTH] = {1.0};
-            for (int i = 0; i < DIM; i++) {
-                g[i + 1] = half[i];
-            }
-            for (int i = 0; i < WIDTH; i++) {
-                for (int j = 0; j < WIDTH; j++) {
-                    block[i][j] += of->weight[ab] * g[i] * g[j];
-                }
-            }
-        }
-        /* a block that is singular to round-off: what its neighbours cannot meet is refused by the residual */
-        double kept[4][4];
-        memcpy(kept, block, sizeof block);
-        if (!solver_small_invert(WIDTH, block)) {
-            memset(block, 0, sizeof block);
-            for (int i = 0; i < WIDTH; i++) {
-                block[i][i] = kept[i][i] > 0.0 ? 1.0 / (WIDTH * kept[i][i]) : 0.0;
-            }
-        }
-        for (int i = 0; i < WIDTH; i++) {
-            for (int j = 0; j < WIDTH; j++) {
-                of->inverse[(a * WIDTH + (size_t)i) * WIDTH + (size_t)j] = 0.5 * (block[i][j] + block[j][i]);
-            }
-        }
-    }
-}
-
 /* (M u)_a */
 static inline void image_of(const struct solver_closure *of, const double *u, size_t a, vec sum[WIDTH])
 {
@@ -97,17 +61,6 @@ static inline void image_of(const struct solver_closure *of, const double *u, si
     }
 }
 
-static inline void times_inverse(const struct solver_closure *of, size_t a, const vec r[WIDTH], vec out[WIDTH])
-{
-    const double *inverse = of->inverse + a * WIDTH * WIDTH;
-    for (int i = 0; i < WIDTH; i++) {
-        out[i] = inverse[i * WIDTH] * r[0];
-        for (int j = 1; j < WIDTH; j++) {
-            out[i] += inverse[i * WIDTH + j] * r[j];
-        }
-    }
-}
-
 static void apply(const struct solver_closure *of, const double *u, double *out, size_t begin, size_t end)
 {
     for (size_t a = begin; a < end; a++) {
@@ -115,43 +68,6 @@ static void apply(const struct solver_closure *of, const double *u, double *out,
         image_of(of, u, a, sum);
         for (int i = 0; i < WIDTH; i++) {
             store(out + a * BLOCK + i * LANES, sum[i]);
-        }
-    }
-}
-
-static void precondition(const struct solver_closure *of, double factor, const double *r, double *out, size_t begin,
-                         size_t end)
-{
-    for (size_t a = begin; a < end; a++) {
-        vec in[WIDTH], z[WIDTH];
-        for (int i = 0; i < WIDTH; i++) {
-            in[i] = load(r + a * BLOCK + i * LANES);
-        }
-        times_inverse(of, a, in, z);
-        for (int i = 0; i < WIDTH; i++) {
-            store(out + a * BLOCK + i * LANES, factor * z[i]);
-        }
-    }
-}
-
-static void smooth(const struct solver_closure *of, double keep, double factor, const double *d, double *x, double *r,
-                   double *next, size_t begin, size_t end)
-{
-    for (size_t a = begin; a < end; a++) {
-        vec sum[WIDTH], z[WIDTH];
-        image_of(of, d, a, sum);
-        for (int i = 0; i < WIDTH; i++) {
-            size_t at = a * BLOCK + (size_t)(i * LANES);
-            store(x + at, load(x + at) + load(d + at));
-            sum[i] = load(r + at) - sum[i];
-            store(r + at, sum[i]);
-        }
-        if (next != NULL) {
-            times_inverse(of, a, sum, z);
-            for (int i = 0; i < WIDTH; i++) {
-                size_t at = a * BLOCK + (size_t)(i * LANES);
-                store(next + at, keep * load(d + at) + factor * z[i]);
-            }
         }
     }
 }
@@ -252,51 +168,123 @@ static inline struct splines splines_at(const struct solver_closure *of, size_t 
     return at;
 }
 
-/* Spline (i, j, k) of those: its value, then its half slopes. */
-static inline void product(const struct splines *at, const int place[3], double out[WIDTH])
+/* Adds to each spline its values and half slopes times r = (r_0, r_1 .. r_dim), axis by axis. */
+static inline void onto_splines(const struct splines *at, const vec r[WIDTH], vec sum[SPLINES])
 {
-    out[0] = at->value[0][place[0]];
-    for (int i = 1; i < DIM; i++) {
-        out[0] *= at->value[i][place[i]];
-    }
-    for (int s = 0; s < DIM; s++) {
-        double slope = at->slope[s][place[s]];
-        for (int i = 0; i < DIM; i++) {
-            slope *= i == s ? 1.0 : at->value[i][place[i]];
+    for (int i = 0; i < 3; i++) {
+        vec x = at->value[0][i] * r[0] + at->slope[0][i] * r[1];
+#if DIM == 1
+        sum[i] += x;
+#else
+        vec beyond = at->value[0][i] * r[2];
+        for (int j = 0; j < 3; j++) {
+            vec xy = at->value[1][j] * x + at->slope[1][j] * beyond;
+#if DIM == 2
+            sum[3 * j + i] += xy;
+#else
+            vec last = at->value[0][i] * at->value[1][j] * r[3];
+            for (int k = 0; k < 3; k++) {
+                sum[9 * k + 3 * j + i] += at->value[2][k] * xy + at->slope[2][k] * last;
+            }
+#endif
         }
-        out[s + 1] = slope;
+#endif
     }
 }
 
-static inline void place_of(int index, int base, int place[3])
+/* The other way round: the value and half slopes of splines' sum x. */
+static inline void of_splines(const struct splines *at, const double *x, const uint32_t spline[SPLINES], vec u[WIDTH])
 {
-    for (int i = 0; i < DIM; i++) {
-        place[i] = index % base;
-        index /= base;
+    for (int i = 0; i < WIDTH; i++) {
+        u[i] = splat(0.0);
+    }
+    for (int i = 0; i < 3; i++) {
+#if DIM == 1
+        vec value = load(x + (size_t)spline[i] * LANES);
+#else
+        vec value = splat(0.0), slope = splat(0.0);
+#if DIM == 3
+        vec last = splat(0.0);
+#endif
+        for (int j = 0; j < 3; j++) {
+#if DIM == 2
+            vec along = load(x + (size_t)spline[3 * j + i] * LANES);
+#else
+            vec along = splat(0.0), across = splat(0.0);
+            for (int k = 0; k < 3; k++) {
+                vec one = load(x + (size_t)spline[9 * k + 3 * j + i] * LANES);
+                along += at->value[2][k] * one;
+                across += at->slope[2][k] * one;
+            }
+            last += at->value[1][j] * across;
+#endif
+            value += at->value[1][j] * along;
+            slope += at->slope[1][j] * along;
+        }
+        u[2] += at->value[0][i] * slope;
+#if DIM == 3
+        u[3] += at->value[0][i] * last;
+#endif
+#endif
+        u[0] += at->value[0][i] * value;
+        u[1] += at->slope[0][i] * value;
     }
 }
 
-/* Adds what particle a gives to the change on a pair for each spline of its box: sign value + half . slope. */
+/* The splines that a pair touches, in lines of four along axis 0: the change on the pair for each. */
+typedef double line __attribute__((vector_size(32)));
+enum { LINES = BOX / 4 };
+struct box {
+    line of[LINES];
+    uint32_t spline[BOX];
+    bool touched[LINES];
+};
+
+/* Adds what particle a gives: sign value + half . slope. */
 static inline void onto_box(const struct solver_closure *of, size_t a, double sign, vec half, const int shift[3],
-                            double box[BOX], uint32_t spline[BOX])
+                            struct box *box)
 {
     struct splines at = splines_at(of, a);
     const uint32_t *of_cell = of->cell_spline + (size_t)of->cell_of[a] * SPLINES;
-    for (int n = 0; n < SPLINES; n++) {
-        int place[3] = {0};
-        double f[WIDTH];
-        place_of(n, 3, place);
-        product(&at, place, f);
-        int index = 0;
-        for (int i = DIM - 1; i >= 0; i--) {
-            index = 4 * index + place[i] + shift[i];
+    line value = {0}, slope = {0};
+    for (int i = 0; i < 3; i++) {
+        value[i + shift[0]] = at.value[0][i];
+        slope[i + shift[0]] = at.slope[0][i];
+    }
+    line x = sign * value + half[0] * slope;
+    for (int n = 0; n < SPLINES / 3; n++) {
+        int at_line = 0;
+        line sum = x;
+#if DIM > 1
+        int j = n % 3;
+        at_line = j + shift[1];
+        sum = at.value[1][j] * x + half[1] * at.slope[1][j] * value;
+#endif
+#if DIM > 2
+        int k = n / 3;
+        at_line += 4 * (k + shift[2]);
+        sum = at.value[2][k] * sum + half[2] * at.slope[2][k] * at.value[1][j] * value;
+#endif
+        box->of[at_line] += sum;
+        box->touched[at_line] = true;
+        memcpy(box->spline + 4 * at_line + shift[0], of_cell + (size_t)(3 * n), 3 * sizeof *of_cell);
+    }
+}
+
+/* Adds factor times the box to the row of spline i of the first of the given lines; what comes before them is the
+ * transpose's. */
+static inline void onto_row(const struct box *box, double factor, int i, const int *lines, int count, double *row)
+{
+    typedef line anywhere __attribute__((aligned(sizeof(double))));
+    for (int n = 0; n < count; n++) {
+        int offset = SOLVER_CLOSURE_REACH - i;
+        if (DIM > 1) {
+            offset += SPAN * (SOLVER_CLOSURE_REACH + (lines[n] & 3) - (lines[0] & 3));
         }
-        double sum = sign * f[0];
-        for (int i = 0; i < DIM; i++) {
-            sum += half[i] * f[i + 1];
+        if (DIM > 2) {
+            offset += SPAN * SPAN * (SOLVER_CLOSURE_REACH + (lines[n] >> 2) - (lines[0] >> 2));
         }
-        box[index] += sum;
-        spline[index] = of_cell[n];
+        *(anywhere *)(row + offset) += factor * box->of[lines[n]];
     }
 }
 
@@ -312,33 +300,25 @@ static void assemble(const struct solver_closure *of, double *dense, size_t begi
                 continue;
             }
             const int32_t *cell_b = of->cell_at + (size_t)of->cell_of[b] * 3;
-            double box[BOX] = {0};
-            uint32_t spline[BOX];
-            int shift_a[3] = {0}, shift_b[3] = {0};
+            struct box box = {.of = {{0}}};
+            int shift_a[3] = {0}, shift_b[3] = {0}, lines[LINES], count = 0;
             for (int i = 0; i < DIM; i++) {
                 shift_a[i] = cell_a[i] > cell_b[i];
                 shift_b[i] = cell_b[i] > cell_a[i];
             }
             vec half = half_distance(of, a, b);
-            onto_box(of, a, 1.0, half, shift_a, box, spline);
-            onto_box(of, b, -1.0, half, shift_b, box, spline);
-            for (int i = 0; i < BOX; i++) {
-                if (box[i] == 0.0) {
-                    continue;
-                }
-                double factor = of->weight[ab] * box[i];
-                double *row = dense + (size_t)spline[i] * DENSE;
-                /* lines of four splines along axis 0, from that of i on: the others are the transpose's */
-                for (int j = i & ~3; j < BOX; j += 4) {
-                    int offset = SOLVER_CLOSURE_REACH - (i & 3);
-                    if (DIM > 1) {
-                        offset += SPAN * (SOLVER_CLOSURE_REACH + (j >> 2 & 3) - (i >> 2 & 3));
-                    }
-                    if (DIM > 2) {
-                        offset += SPAN * SPAN * (SOLVER_CLOSURE_REACH + (j >> 4) - (i >> 4));
-                    }
-                    for (int n = 0; n < 4; n++) {
-                        row[offset + n] += factor * box[j + n];
+            onto_box(of, a, 1.0, half, shift_a, &box);
+            onto_box(of, b, -1.0, half, shift_b, &box);
+            for (int n = 0; n < LINES; n++) {
+                lines[count] = n;
+                count += box.touched[n];
+            }
+            for (int m = 0; m < count; m++) {
+                for (int i = 0; i < 4; i++) {
+                    double entry = box.of[lines[m]][i];
+                    if (entry != 0.0) {
+                        double *row = dense + (size_t)box.spline[4 * lines[m] + i] * DENSE;
+                        onto_row(&box, of->weight[ab] * entry, i, lines + m, count - m, row);
                     }
                 }
             }
@@ -346,22 +326,18 @@ static void assemble(const struct solver_closure *of, double *dense, size_t begi
     }
 }
 
-static void sum_cells(const struct solver_closure *of, const double *r, size_t begin, size_t end)
+static void sum_cells(const struct solver_closure *of, const double *r, const double *image, size_t begin, size_t end)
 {
     for (size_t cell = begin; cell < end; cell++) {
         vec sum[SPLINES] = {{0}};
         for (size_t p = of->cell_start[cell]; p < of->cell_start[cell + 1]; p++) {
             size_t a = of->cell_particle[p];
             struct splines at = splines_at(of, a);
-            for (int n = 0; n < SPLINES; n++) {
-                int place[3] = {0};
-                double f[WIDTH];
-                place_of(n, 3, place);
-                product(&at, place, f);
-                for (int i = 0; i < WIDTH; i++) {
-                    sum[n] += f[i] * load(r + a * BLOCK + i * LANES);
-                }
+            vec of_a[WIDTH];
+            for (int i = 0; i < WIDTH; i++) {
+                of_a[i] = load(r + a * BLOCK + i * LANES) - load(image + a * BLOCK + i * LANES);
             }
+            onto_splines(&at, of_a, sum);
         }
         for (int n = 0; n < SPLINES; n++) {
             store(of->cell_sum + (cell * SPLINES + (size_t)n) * LANES, sum[n]);
@@ -387,23 +363,10 @@ static void spread_splines(const struct solver_closure *of, const double *x, dou
 {
     for (size_t a = begin; a < end; a++) {
         struct splines at = splines_at(of, a);
-        const uint32_t *spline = of->cell_spline + (size_t)of->cell_of[a] * SPLINES;
         vec sum[WIDTH];
+        of_splines(&at, x, of->cell_spline + (size_t)of->cell_of[a] * SPLINES, sum);
         for (int i = 0; i < WIDTH; i++) {
-            sum[i] = load(u + a * BLOCK + i * LANES);
-        }
-        for (int n = 0; n < SPLINES; n++) {
-            int place[3] = {0};
-            double f[WIDTH];
-            vec value = load(x + (size_t)spline[n] * LANES);
-            place_of(n, 3, place);
-            product(&at, place, f);
-            for (int i = 0; i < WIDTH; i++) {
-                sum[i] += f[i] * value;
-            }
-        }
-        for (int i = 0; i < WIDTH; i++) {
-            store(u + a * BLOCK + i * LANES, sum[i]);
+            store(u + a * BLOCK + i * LANES, load(u + a * BLOCK + i * LANES) + sum[i]);
         }
     }
 }
@@ -414,10 +377,17 @@ static void grid_smooth(const struct solver_closure_grid *grid, double keep, dou
                         double *r, double *next, size_t begin, size_t end)
 {
     for (size_t i = begin; i < end; i++) {
-        vec sum = splat(0.0);
-        for (size_t ij = grid->row[i]; ij < grid->row[i + 1]; ij++) {
-            sum += grid->value[ij] * load(d + (size_t)grid->column[ij] * LANES);
+        vec part[4] = {{0}}; /* sums that do not wait for each other */
+        size_t ij = grid->row[i];
+        for (; ij + 4 <= grid->row[i + 1]; ij += 4) {
+            for (size_t n = 0; n < 4; n++) {
+                part[n] += grid->value[ij + n] * load(d + (size_t)grid->column[ij + n] * LANES);
+            }
         }
+        for (; ij < grid->row[i + 1]; ij++) {
+            part[0] += grid->value[ij] * load(d + (size_t)grid->column[ij] * LANES);
+        }
+        vec sum = (part[0] + part[1]) + (part[2] + part[3]);
         store(x + i * LANES, load(x + i * LANES) + load(d + i * LANES));
         sum = load(r + i * LANES) - sum;
         store(r + i * LANES, sum);
@@ -461,10 +431,7 @@ static void grid_spread(const struct solver_closure_grid *fine, const double *x,
 
 const struct solver_closure_loops DIM_NAME(solver_closure) = {
     .lanes = LANES,
-    .blocks = blocks,
     .apply = apply,
-    .precondition = precondition,
-    .smooth = smooth,
     .dot = dot_of,
     .add = add,
     .scale_add = scale_add,

@@ -1,0 +1,222 @@
+/* Smoothing on the particles, in single precision (closure.h), compiled per dimension and path.
+ *
+ * A narrow vector is [count][COLUMNS][4] floats: for each component of C four numbers, alpha, then beta by components,
+ * padded with zeros; in 3D a fourth column, of zeros, fills the widest vectors. A pair has sqrt(w) (-1, d/2): with
+ * s = sum of that times u_b, what b gives to (M u)_a is that times s, but for the sign of the first. What a itself
+ * gives is its diagonal block. */
+#include "solver/closure.h"
+
+#include "solver/dim.h"
+#include "solver/small.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { WIDTH = DIM + 1, BLOCK = WIDTH * LANES, FOUR = 4, COLUMNS = DIM == 3 ? 4 : DIM, NARROW = FOUR * COLUMNS };
+
+/* Several columns at a time, as many as a register holds. */
+#if DIM == 3 && defined __AVX512F__
+enum { PART = 16 };
+#elif DIM >= 2 && defined __AVX__
+enum { PART = 8 };
+#else
+enum { PART = 4 };
+#endif
+enum { PARTS = NARROW / PART };
+typedef float part __attribute__((vector_size(PART * sizeof(float))));
+
+#if DIM == 3 && defined __AVX512F__
+#define IN_COLUMNS(v, i, j, k, l)                                                                                      \
+    __builtin_shufflevector(v, v, i, j, k, l, 4 + (i), 4 + (j), 4 + (k), 4 + (l), 8 + (i), 8 + (j), 8 + (k), 8 + (l),  \
+                            12 + (i), 12 + (j), 12 + (k), 12 + (l))
+#elif DIM >= 2 && defined __AVX__
+#define IN_COLUMNS(v, i, j, k, l) __builtin_shufflevector(v, v, i, j, k, l, 4 + (i), 4 + (j), 4 + (k), 4 + (l))
+#else
+#define IN_COLUMNS(v, i, j, k, l) __builtin_shufflevector(v, v, i, j, k, l)
+#endif
+
+struct narrow {
+    part of[PARTS];
+};
+
+/* The same four numbers in each column. GCC 12 makes a shuffle of a loaded four a detour through memory. */
+static inline part in_each(const float *four)
+{
+#if DIM == 3 && defined __AVX512F__
+    return (part)_mm512_broadcast_f32x4(_mm_load_ps(four));
+#elif DIM >= 2 && defined __AVX__
+    return (part)_mm256_broadcast_ps((const __m128 *)four);
+#else
+    return *(const part *)four;
+#endif
+}
+
+/* In all places of a column, the sum of its four. */
+static inline part column_sum(part v)
+{
+    v += IN_COLUMNS(v, 1, 0, 3, 2);
+    return v + IN_COLUMNS(v, 2, 3, 0, 1);
+}
+
+static inline struct narrow load_narrow(const float *from)
+{
+    struct narrow v;
+    for (int p = 0; p < PARTS; p++) {
+        v.of[p] = *(const part *)(from + p * PART);
+    }
+    return v;
+}
+
+static inline void store_narrow(float *to, struct narrow v)
+{
+    for (int p = 0; p < PARTS; p++) {
+        *(part *)(to + p * PART) = v.of[p];
+    }
+}
+
+/* A symmetric block times each column of v. */
+static inline struct narrow times_block(const float *block, struct narrow v)
+{
+    struct narrow out;
+    for (int p = 0; p < PARTS; p++) {
+        part in = v.of[p];
+        part sum = in_each(block) * IN_COLUMNS(in, 0, 0, 0, 0);
+        sum += in_each(block + FOUR) * IN_COLUMNS(in, 1, 1, 1, 1);
+#if DIM > 1
+        sum += in_each(block + 2 * FOUR) * IN_COLUMNS(in, 2, 2, 2, 2);
+#endif
+#if DIM > 2
+        sum += in_each(block + 3 * FOUR) * IN_COLUMNS(in, 3, 3, 3, 3);
+#endif
+        out.of[p] = sum;
+    }
+    return out;
+}
+
+/* (M u)_a */
+static inline struct narrow image_of(const struct solver_closure *of, const float *u, size_t a)
+{
+    static const float flip[FOUR] __attribute__((aligned(16))) = {-1.0f, 1.0f, 1.0f, 1.0f};
+    const struct solver_graph *graph = of->graph;
+    struct narrow sum = {{{0}}};
+    for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
+        const float *u_b = u + (size_t)graph->neighbour[ab] * NARROW;
+        part c = in_each(of->pair + ab * FOUR);
+        for (int p = 0; p < PARTS; p++) {
+            sum.of[p] += c * column_sum(c * *(const part *)(u_b + p * PART));
+        }
+    }
+    struct narrow own = times_block(of->own + a * FOUR * FOUR, load_narrow(u + a * NARROW));
+    for (int p = 0; p < PARTS; p++) {
+        own.of[p] += in_each(flip) * sum.of[p];
+    }
+    return own;
+}
+
+/* --- what stays --- */
+
+static void to_narrow(const double block[4][4], float *out)
+{
+    for (int i = 0; i < WIDTH; i++) {
+        for (int j = 0; j < WIDTH; j++) {
+            out[i * FOUR + j] = (float)(0.5 * (block[i][j] + block[j][i]));
+        }
+    }
+}
+
+static void prepare(struct solver_closure *of, size_t begin, size_t end)
+{
+    const struct solver_graph *graph = of->graph;
+    for (size_t a = begin; a < end; a++) {
+        double block[4][4] = {{0}};
+        for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
+            vec half = of->scale * (load(of->X + (size_t)graph->neighbour[ab] * LANES) - load(of->X + a * LANES));
+            double root = sqrt(of->weight[ab]);
+            double g[WIDTH] = {1.0};
+            of->pair[ab * FOUR] = (float)-root;
+            for (int i = 0; i < DIM; i++) {
+                g[i + 1] = half[i];
+                of->pair[ab * FOUR + (size_t)i + 1] = (float)(root * half[i]);
+            }
+            for (int i = 0; i < WIDTH; i++) {
+                for (int j = 0; j < WIDTH; j++) {
+                    block[i][j] += of->weight[ab] * g[i] * g[j];
+                }
+            }
+        }
+        to_narrow(block, of->own + a * FOUR * FOUR);
+        /* a block that is singular to round-off: what its neighbours cannot meet is refused by the residual */
+        double kept[4][4];
+        memcpy(kept, block, sizeof block);
+        if (!solver_small_invert(WIDTH, block)) {
+            memset(block, 0, sizeof block);
+            for (int i = 0; i < WIDTH; i++) {
+                block[i][i] = kept[i][i] > 0.0 ? 1.0 / (WIDTH * kept[i][i]) : 0.0;
+            }
+        }
+        to_narrow(block, of->inverse + a * FOUR * FOUR);
+    }
+}
+
+/* --- the steps --- */
+
+static void start(const struct solver_closure *of, float factor, const double *r, const double *image, size_t begin,
+                  size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        float *left = of->left + a * NARROW;
+        for (size_t k = 0; k < DIM; k++) {
+            for (size_t i = 0; i < WIDTH; i++) {
+                size_t at = a * BLOCK + i * LANES + k;
+                left[k * FOUR + i] = (float)(r[at] - image[at]);
+            }
+        }
+        struct narrow z = times_block(of->inverse + a * FOUR * FOUR, load_narrow(left));
+        for (int p = 0; p < PARTS; p++) {
+            z.of[p] *= factor;
+        }
+        store_narrow(of->step + a * NARROW, z);
+        store_narrow(of->change + a * NARROW, (struct narrow){{{0}}});
+    }
+}
+
+static void smooth(const struct solver_closure *of, float keep, float factor, size_t begin, size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        struct narrow image = image_of(of, of->step, a);
+        struct narrow x = load_narrow(of->change + a * NARROW);
+        struct narrow r = load_narrow(of->left + a * NARROW);
+        struct narrow d = load_narrow(of->step + a * NARROW);
+        for (int p = 0; p < PARTS; p++) {
+            x.of[p] += d.of[p];
+            r.of[p] -= image.of[p];
+        }
+        struct narrow z = times_block(of->inverse + a * FOUR * FOUR, r);
+        for (int p = 0; p < PARTS; p++) {
+            z.of[p] = keep * d.of[p] + factor * z.of[p];
+        }
+        store_narrow(of->change + a * NARROW, x);
+        store_narrow(of->left + a * NARROW, r);
+        store_narrow(of->next + a * NARROW, z);
+    }
+}
+
+static void finish(const struct solver_closure *of, double *z, size_t begin, size_t end)
+{
+    for (size_t a = begin; a < end; a++) {
+        const float *x = of->change + a * NARROW, *d = of->step + a * NARROW;
+        for (size_t i = 0; i < WIDTH; i++) {
+            for (size_t k = 0; k < DIM; k++) {
+                z[a * BLOCK + i * LANES + k] += (double)(x[k * FOUR + i] + d[k * FOUR + i]);
+            }
+        }
+    }
+}
+
+const struct solver_closure_smoother DIM_NAME(solver_closure_smoother) = {
+    .width = NARROW,
+    .prepare = prepare,
+    .start = start,
+    .smooth = smooth,
+    .finish = finish,
+};
