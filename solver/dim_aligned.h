@@ -195,9 +195,11 @@ struct aligned_sums {
 static inline __attribute__((always_inline)) void turn_side(const struct solver_upwind *work, const struct group *group,
                                                             struct terms terms, int I, struct aligned_side *own)
 {
-    own->half_X = (real)0.5 * gather_component(work->X, I, group->at);
-    own->slope = gather(work->F_rate + I * LANES, TENSOR, group->at);
-    if (terms.volume) {
+    if (terms.reconstruct) {
+        own->half_X = (real)0.5 * gather_component(work->X, I, group->at);
+        own->slope = gather(work->F_rate + I * LANES, TENSOR, group->at);
+    }
+    if (terms.reconstruct && terms.volume) {
         own->pressure_slope = gather_component(work->pressure_gradient, I, group->at);
     }
     if (terms.volume && !terms.frozen) {
@@ -236,15 +238,20 @@ static inline __attribute__((always_inline)) void add_along(const struct solver_
                                                             const struct aligned_side *own, struct aligned_sums *sums)
 {
     wide face = of_record(work, pairs, DIM, terms.narrow);
-    wide back = own->half_X - (real)0.5 * gather_component(work->X, I, pairs->b); /* half the distance */
     wide jump = gather(work->v, LANES, pairs->b) - own->v;
-    jump += back * (gather(work->F_rate + I * LANES, TENSOR, pairs->b) + own->slope);
+    wide back = jump; /* half the distance */
+    if (terms.reconstruct) {
+        back = own->half_X - (real)0.5 * gather_component(work->X, I, pairs->b);
+        jump += back * (gather(work->F_rate + I * LANES, TENSOR, pairs->b) + own->slope);
+    }
     sums->force += gather(work->P + I * LANES, TENSOR, pairs->b) * of_record(work, pairs, I, terms.narrow);
     sums->jumps += face * jump;
     wide by_volume = terms.frozen ? face : add_turned(work, group, pairs, terms, I, own, jump, face, sums);
     if (terms.volume) {
         wide difference = gather_scalars(work->pressure, pairs->b) - own->pressure;
-        difference += back * (gather_component(work->pressure_gradient, I, pairs->b) + own->pressure_slope);
+        if (terms.reconstruct) {
+            difference += back * (gather_component(work->pressure_gradient, I, pairs->b) + own->pressure_slope);
+        }
         sums->volume += by_volume * difference;
     }
 }

@@ -38,10 +38,10 @@ static inline void gradient_terms(const struct solver_upwind *work, size_t count
     }
 }
 
-/* Whether rates are those with linear reconstruction, on a stencil that is antisymmetric, of one material. */
+/* Whether rates are those on a stencil that is antisymmetric, of one material, with the volumetric stress's jump. */
 static inline bool is_plain(const struct solver_upwind *work)
 {
-    return work->reconstruct && work->transposed == NULL && work->stride == 0 && !(work->evolves_J && work->whole_jump);
+    return work->transposed == NULL && work->stride == 0 && !(work->evolves_J && work->whole_jump);
 }
 
 /* Whether loops of dim_aligned.h take the rates. */
@@ -95,13 +95,13 @@ static inline void aligned_rate_terms(const struct solver_upwind *work, size_t c
     solver_cost_term(terms, "internal force", 2, pairs * 2.0 * vector + of_axes);
     solver_cost_term(terms, "dissipation of p", 2,
                      pairs * (3.0 * vector + normal) + of_axes * (turned ? 2.0 : 1.0) + particles * 4.0 * vector);
-    solver_cost_term(terms, "reconstruction for p", 2, pairs * 5.0 * vector + of_axes);
+    solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * 5.0 * vector + of_axes : 0.0);
     if (work->evolves_J) {
         double area = turned ? (IN_SINGLE ? 6.0 : 5.0) * vector + FLOPS_SPREAD_DOT : 0.0;
         double present = turned ? 6.0 + (work->stiffness != NULL ? 1.0 : 0.0) : 0.0; /* impedance */
         solver_cost_term(terms, "dissipation of J", 2,
                          pairs * (3.0 * vector + area + present) + of_axes + (turned ? 4.0 * particles : 0.0));
-        solver_cost_term(terms, "reconstruction for J", 2, pairs * 3.0 * vector);
+        solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? pairs * 3.0 * vector : 0.0);
     }
 }
 

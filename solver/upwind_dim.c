@@ -308,7 +308,7 @@ static inline __attribute__((always_inline)) void rates_with(const struct solver
     }
 }
 
-/* With linear reconstruction, on a stencil that is antisymmetric, of one material. */
+/* Plain rates (dim_upwind_terms.h) with linear reconstruction. */
 static inline __attribute__((always_inline)) void plain_rates(const struct solver_upwind *work, size_t begin,
                                                               size_t end, bool narrow, bool aligned)
 {
@@ -337,8 +337,8 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end)
                           .whole = work->whole_jump,
                           .composite = work->stride != 0,
                           .narrow = work->narrow != NULL};
-    if (!is_plain(work)) { /* rare: not worth a loop each */
-        rates_with(work, begin, end, terms, false);
+    if (!is_plain(work) || !work->reconstruct) { /* rare: not worth a loop each */
+        rates_with(work, begin, end, terms, aligns_rates(work));
     } else if (aligns_rates(work) && terms.narrow) {
         plain_rates(work, begin, end, true, true);
     } else if (aligns_rates(work)) {

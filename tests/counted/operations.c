@@ -69,6 +69,7 @@ static void test_upwind(void)
         "evolved=pF material.model=neo-hookean-polyconvex",
         "evolved=pFHJ material.model=neo-hookean-polyconvex",
         "evolved=pFHJ reconstruction=none",
+        "evolved=pF material.model=linear-elastic reconstruction=none",
         "evolved=pFHJ reconstruction=least-squares stencil=sph",
         "evolved=pFJ volume_flux=stress",
         "evolved=pFJ volume_flux=stress reconstruction=none",
