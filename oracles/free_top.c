@@ -20,7 +20,7 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double LONGER = 1.1;  /* a side over the next: moments of inertia as near one another lose digits */
+static const double LONGER = 1.2;   /* a side over the next: moments of inertia as near one another lose digits */
 static const double NEAREST = 1e-3; /* to the separatrix */
 
 struct oracle {
@@ -30,7 +30,7 @@ struct oracle {
     double L, twice_T;    /* over mass [m^2/s], [m^2/s^2] */
     double a[3];          /* amplitudes of the angular velocity [rad/s]; that of k with its sign */
     double m, rest;       /* and 1 - m */
-    double rate, phase;   /* d tau/dt [1/s] and amplitude of tau at t = 0 [rad] */
+    double rate;          /* d tau/dt [1/s] */
     double quarter, tau0; /* K(m), and tau at t = 0 */
     double n, lead, turn; /* parameter of the integral, its factor [-], and Pi(n) at t = 0 */
     double start[3][3];   /* the frame at t = 0: see frame_at */
@@ -38,8 +38,8 @@ struct oracle {
 
 static const struct oracle_parameter parameters[] = {
     {"A", "m", "longest side, along X", 0, INFINITY, true, false, 3},
-    {"B", "m", "middle side, along Y, at most A / 1.1", 0, INFINITY, true, false, 2},
-    {"C", "m", "shortest side, along Z, at most B / 1.1", 0, INFINITY, true, false, 1},
+    {"B", "m", "middle side, along Y, at most A / 1.2", 0, INFINITY, true, false, 2},
+    {"C", "m", "shortest side, along Z, at most B / 1.2", 0, INFINITY, true, false, 1},
     {"spin_x", "rad/s", "angular velocity at t = 0", -INFINITY, INFINITY, false, false, 0.1},
     {"spin_y", "rad/s", "angular velocity at t = 0", -INFINITY, INFINITY, false, false, 1},
     {"spin_z", "rad/s", "angular velocity at t = 0", -INFINITY, INFINITY, false, false, 0.2},
@@ -70,7 +70,20 @@ static void cross(const double a[3], const double b[3], double c[3])
     }
 }
 
-/* Amplitude of tau, and the integral of the third kind up to it, at a number of half periods and what is left. */
+/* F and Pi of an amplitude within a quarter of a turn, given by sine and cosine: Carlson's forms, which lose nothing
+ * near its end, as Legendre's do that take the amplitude itself. */
+static double first(const struct oracle *o, double sn, double cn)
+{
+    return sn * gsl_sf_ellint_RF(cn * cn, cn * cn + o->rest * sn * sn, 1, GSL_PREC_DOUBLE);
+}
+
+static double third(const struct oracle *o, double sn, double cn)
+{
+    double square = sn * sn, x = cn * cn, y = x + o->rest * square;
+    return first(o, sn, cn) - o->n / 3 * square * sn * gsl_sf_ellint_RJ(x, y, 1, 1 + o->n * square, GSL_PREC_DOUBLE);
+}
+
+/* At tau: elliptic functions, and Pi(n) of its amplitude, of whole half periods and what is left. */
 struct angle {
     double sn, cn, dn, third;
 };
@@ -80,8 +93,7 @@ static struct angle angle_at(const struct oracle *o, double tau)
     struct angle at;
     double halves = round(tau / (2 * o->quarter)), sign = fmod(halves, 2) == 0 ? 1 : -1;
     (void)gsl_sf_elljac_e(tau - 2 * o->quarter * halves, o->m, &at.sn, &at.cn, &at.dn);
-    double k = sqrt(o->m), left = gsl_sf_ellint_P(atan2(at.sn, at.cn), k, o->n, GSL_PREC_DOUBLE);
-    at.third = 2 * halves * gsl_sf_ellint_Pcomp(k, o->n, GSL_PREC_DOUBLE) + left;
+    at.third = 2 * halves * third(o, 1, 0) + third(o, at.sn, at.cn);
     at.sn *= sign;
     at.cn *= sign;
     return at;
@@ -164,12 +176,19 @@ static double outside(const struct oracle *o, const double X[3])
     return oracle_outside_box(3, lower, upper, X);
 }
 
+/* I_a - I_b, by the sides: moments of inertia that are near one another cancel. */
+static double apart(const struct oracle *o, int a, int b)
+{
+    const double *side = o->given.side;
+    return (side[b] - side[a]) * (side[b] + side[a]) / 12;
+}
+
 /* L^2 - 2 T I of an axis, term by term: nothing cancels where the angular velocity is near that axis. */
 static double excess(const struct oracle *o, int axis)
 {
     double sum = 0;
     for (int n = 0; n < 3; n++) {
-        sum += o->I[n] * o->given.spin[n] * ((o->I[n] - o->I[axis]) * o->given.spin[n]);
+        sum += o->I[n] * o->given.spin[n] * (apart(o, n, axis) * o->given.spin[n]);
     }
     return sum;
 }
@@ -192,7 +211,7 @@ static bool solve(struct oracle *o)
     o->k = excess(o, 1) > 0 ? 2 : 0;
     o->i = 2 - o->k;
     const double *spin = o->given.spin, *I = o->I;
-    double ki = fabs(I[o->k] - I[o->i]), kj = fabs(I[o->k] - I[o->j]), ij = fabs(I[o->i] - I[o->j]);
+    double ki = fabs(apart(o, o->k, o->i)), kj = fabs(apart(o, o->k, o->j)), ij = fabs(apart(o, o->i, o->j));
     double of_i = fabs(excess(o, o->i)), of_j = fabs(excess(o, o->j)), of_k = fabs(excess(o, o->k));
     o->m = ij * of_k / (kj * of_i);
     o->rest = ki * of_j / (kj * of_i);
@@ -203,10 +222,11 @@ static bool solve(struct oracle *o)
     o->a[o->j] = sqrt(of_k / (I[o->j] * kj));
     o->a[o->k] = copysign(sqrt(of_i / (I[o->k] * ki)), spin[o->k]);
     o->rate = o->a[o->k] * sqrt(ki / I[o->i] * (kj / I[o->j]));
-    double k = sqrt(o->m), amplitude = atan2(spin[o->j] * sqrt(I[o->j] * kj), spin[o->i] * sqrt(I[o->i] * ki));
+    double sn = spin[o->j] * sqrt(I[o->j] * kj), cn = spin[o->i] * sqrt(I[o->i] * ki), size = hypot(sn, cn);
     double along = I[o->i] * o->a[o->i], across = (o->L - along) * (o->L + along);
-    o->quarter = gsl_sf_ellint_Kcomp(k, GSL_PREC_DOUBLE);
-    o->tau0 = gsl_sf_ellint_F(amplitude, k, GSL_PREC_DOUBLE);
+    o->quarter = first(o, 1, 0);
+    o->tau0 = size > 0 ? first(o, sn / size, fabs(cn) / size) : 0;
+    o->tau0 = cn < 0 ? 2 * o->quarter - o->tau0 : o->tau0;
     o->n = along * along / across;
     o->lead = -o->L * excess(o, o->i) / (I[o->i] * across * o->rate);
     o->turn = angle_at(o, o->tau0).third;
