@@ -70,6 +70,14 @@ static void cross(const double a[3], const double b[3], double c[3])
     }
 }
 
+static void normalise(double a[3])
+{
+    double size = hypot(hypot(a[0], a[1]), a[2]);
+    for (int i = 0; i < 3; i++) {
+        a[i] /= size;
+    }
+}
+
 /* F and Pi of an amplitude within a quarter of a turn, given by sine and cosine: Carlson's forms, which lose nothing
  * near its end, as Legendre's do that take the amplitude itself. */
 static double first(const struct oracle *o, double sn, double cn)
@@ -94,26 +102,24 @@ static struct angle angle_at(const struct oracle *o, double tau)
     double halves = round(tau / (2 * o->quarter)), sign = fmod(halves, 2) == 0 ? 1 : -1;
     (void)gsl_sf_elljac_e(tau - 2 * o->quarter * halves, o->m, &at.sn, &at.cn, &at.dn);
     at.third = 2 * halves * third(o, 1, 0) + third(o, at.sn, at.cn);
-    at.sn *= sign;
-    at.cn *= sign;
+    double size = sign * hypot(at.sn, at.cn); /* so that energy and angular momentum stay what they are */
+    at.sn /= size;
+    at.cn /= size;
+    at.dn = sqrt(at.cn * at.cn + o->rest * at.sn * at.sn);
     return at;
 }
 
 /* Unit vectors along L, normal to it and e_i, and normal to both, as the body sees them. */
 static void frame_at(const struct oracle *o, const double w[3], double frame[3][3])
 {
-    double axis[3] = {0, 0, 0}, size = 0;
-    for (int i = 0; i < 3; i++) {
-        frame[0][i] = o->I[i] * w[i] / o->L;
-    }
+    double axis[3] = {0, 0, 0};
     axis[o->i] = 1;
+    for (int i = 0; i < 3; i++) {
+        frame[0][i] = o->I[i] * w[i];
+    }
+    normalise(frame[0]);
     cross(axis, frame[0], frame[1]);
-    for (int i = 0; i < 3; i++) {
-        size = hypot(size, frame[1][i]);
-    }
-    for (int i = 0; i < 3; i++) {
-        frame[1][i] /= size;
-    }
+    normalise(frame[1]);
     cross(frame[0], frame[1], frame[2]);
 }
 

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLES = 64, INSTANTS = 16, NUMBERS = 12 };
+enum { SAMPLES = 64, INSTANTS = 16, MOMENTA = 4, NUMBERS = 12 };
 
 /* At each instant, of which t = 0 is the first: angular velocity as the body sees it, and R, row by row. NaN if the
  * integration fails. */
@@ -156,8 +156,8 @@ static void momenta(struct self_check *check, const double moment[3], double bou
     struct self_check_body body = self_check_body(check, 0);
     struct self_check_distance of[2] = {0};
     double mass = g->rho * g->side[0] * g->side[1] * g->side[2];
-    for (size_t i = 0; i < INSTANTS; i++) {
-        double sum[2][SELF_CHECK_SUMS], due[3], t = check->t_end * (double)i / INSTANTS;
+    for (size_t i = 0; i < MOMENTA; i++) {
+        double sum[2][SELF_CHECK_SUMS], due[3], t = check->t_end * (double)i / MOMENTA;
         static const double none[3] = {0};
         self_check_integrate(check, &body, t, INFINITY, linear, NULL, sum[0]);
         self_check_integrate(check, &body, t, INFINITY, angular, NULL, sum[1]);
