@@ -28,12 +28,23 @@ oracle = { name = "free-top" }
 -- The weights of sbp4 integrate moments of inertia exactly, those of sbp2 to second order.
 scheme, evolved, stencil = "upwind", "pF", "sbp4"
 angular_momentum = "projected"
-integrator, cfl = "ssp-rk3", 0.45
+integrator, cfl = "ssp-rk3", 0.6
 history = 400 -- rows
 probes = { { name = "corner", X = {A / 2, B / 2, C / 2} } }
 
+-- The error of u is that of softness: 4.2e-2, 1.05e-2 and 3.8e-3 at 0.1, 0.05 and 0.03, of order 2.0. With sbp2 and softness
+-- 0.02 it is 0.17 and 3.4e-2 at n = 2 and 4. Outer halves lighter by a tenth have 3.3e-2, heavier by a fifth 2.5e-2. Stresses
+-- are no more than looked at: the oracle has none.
 gates = {
-    { u = 1, v = 1, probes = 1, P_abs = 1e9, ["indicator linear momentum"] = 1e-12, ["indicator angular momentum"] = 1e-12, ["indicator energy gain"] = 1e-9 },
+    { ["indicator linear momentum"] = 1e-12, ["indicator angular momentum"] = 1e-12, ["indicator energy gain"] = 1e-9 },
+    { when = { stencil = "sbp4", softness = 0.1, n = 8 }, u = 4.4e-2, v = 0.127, probes = 3.6e-2,
+      ["indicator linear momentum"] = 1e-12, ["indicator angular momentum"] = 1e-12, ["indicator energy gain"] = 1e-9 },
+    { when = { stencil = "sbp4", softness = 0.05, n = 8 }, u = 1.1e-2, v = 3.2e-2, probes = 9e-3,
+      ["indicator linear momentum"] = 1e-12, ["indicator angular momentum"] = 1e-12, ["indicator energy gain"] = 1e-9 },
+    { when = { stencil = "sbp4", softness = 0.03, n = 8 }, u = 4e-3, v = 1.9e-2, probes = 3.3e-3,
+      ["indicator linear momentum"] = 1e-12, ["indicator angular momentum"] = 1e-12, ["indicator energy gain"] = 1e-9 },
+    { when = { stencil = "sbp2", softness = 0.02, n = 4 }, u = 3.6e-2, ["rate u"] = 1.9,
+      ["indicator linear momentum"] = 1e-12, ["indicator angular momentum"] = 1e-12, ["indicator energy gain"] = 1e-9 },
 }
 
 view = {
