@@ -283,8 +283,8 @@ assay_test(gate-spinning-body-left-free LABELS gate mustfail COMMAND ${fails} "a
 assay_test(gate-spinning-body-sees-energy LABELS gate mustfail COMMAND ${fails} "FAIL: a gate does not hold"
   $<TARGET_FILE:assay> verify spinning-body --levels 2 --set integrator=tvd-rk2 --set cfl=0.3
   --out gates/spinning-body-energy)
-# The tumbling box: u off Euler's top by 1.05e-2, as softness squared, unless its outer halves are lighter by a tenth, 3.3e-2,
-# or heavier by a fifth, 2.5e-2, or the top's sides are 2 % longer, 3.1e-2, 1.4e-2, 2.0e-2.
+# The tumbling box: u is off Euler's top by 1.05e-2, as softness squared, unless its outer halves are lighter by a tenth,
+# 3.3e-2, or heavier by a fifth, 2.5e-2, or a side of the top is 2 % longer, 3.1e-2, 1.4e-2, 2.0e-2.
 set(top $<TARGET_FILE:assay> verify free-top)
 assay_test(gate-free-top LABELS gate COMMAND ${top} --out gates/free-top)
 assay_test(gate-free-top-soft LABELS gate COMMAND ${top} --set softness=0.1 --out gates/free-top-soft)
