@@ -4,8 +4,8 @@
  * Among the axes i, j, k let j have the middle moment of inertia and k be the one that the angular velocity circles
  * about in the body: the one of the largest moment if L^2 > 2 T I_j, else that of the smallest. With tau = tau_0 + s t,
  *
- *     w_i = a_i cn tau,   w_j = a_j sn tau,   w_k = a_k dn tau,   m = |I_j - I_i| |2 T I_k - L^2| / (|I_k - I_j|
- *     |L^2 - 2 T I_i|)
+ *     w_i = a_i cn tau,   w_j = a_j sn tau,   w_k = a_k dn tau,
+ *     m = |I_j - I_i| |2 T I_k - L^2| / (|I_k - I_j| |L^2 - 2 T I_i|)
  *
  * The angular momentum L stands still in space. The plane that holds it and e_i turns about it by
  *
@@ -32,7 +32,8 @@ struct oracle {
     double m, rest;       /* and 1 - m */
     double rate;          /* d tau/dt [1/s] */
     double quarter, tau0; /* K(m), and tau at t = 0 */
-    double n, lead, turn; /* parameter of the integral, its factor [-], and Pi(n) at t = 0 */
+    double n, lead;       /* parameter of the integral Pi(n), and its factor [-] */
+    double whole, turn;   /* Pi(n) of a quarter, and at t = 0 */
     double start[3][3];   /* the frame at t = 0: see frame_at */
 };
 
@@ -101,7 +102,7 @@ static struct angle angle_at(const struct oracle *o, double tau)
     struct angle at;
     double halves = round(tau / (2 * o->quarter)), sign = fmod(halves, 2) == 0 ? 1 : -1;
     (void)gsl_sf_elljac_e(tau - 2 * o->quarter * halves, o->m, &at.sn, &at.cn, &at.dn);
-    at.third = 2 * halves * third(o, 1, 0) + third(o, at.sn, at.cn);
+    at.third = 2 * halves * o->whole + third(o, at.sn, at.cn);
     double size = sign * hypot(at.sn, at.cn); /* so that energy and angular momentum stay what they are */
     at.sn /= size;
     at.cn /= size;
@@ -235,6 +236,7 @@ static bool solve(struct oracle *o)
     o->tau0 = cn < 0 ? 2 * o->quarter - o->tau0 : o->tau0;
     o->n = along * along / across;
     o->lead = -o->L * excess(o, o->i) / (I[o->i] * across * o->rate);
+    o->whole = third(o, 1, 0);
     o->turn = angle_at(o, o->tau0).third;
     frame_at(o, spin, o->start);
     return true;
