@@ -12,6 +12,7 @@
     ENTRY(oracle_cable)                                                                                                \
     ENTRY(oracle_cantilever)                                                                                           \
     ENTRY(oracle_cantilever_plane_stress)                                                                              \
+    ENTRY(oracle_free_top)                                                                                             \
     ENTRY(oracle_j2_hencky_uniaxial)                                                                                   \
     ENTRY(oracle_j2_simple_shear)                                                                                      \
     ENTRY(oracle_j2_uniaxial)                                                                                          \

@@ -68,6 +68,7 @@ struct oracle_kind {
     int dim;
     enum oracle_smoothness smoothness; /* of the worst front there may be */
     bool finite_strain;                /* no linear elasticity, whose stresses are all alike: see oracle_cauchy */
+    bool rigid;                        /* its strains are 0; of stresses it knows nothing and says 0 */
     const char *awaits;                /* what the solver lacks to be judged by it: "plasticity"; NULL: nothing */
     const struct oracle_parameter *parameter; /* ends with a NULL name */
     const struct oracle_extra *extra;         /* ends with a NULL name; NULL: none */

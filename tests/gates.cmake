@@ -310,6 +310,23 @@ assay_test(gate-spinning-body-left-free LABELS gate mustfail COMMAND ${fails} "a
 assay_test(gate-spinning-body-sees-energy LABELS gate mustfail COMMAND ${fails} "FAIL: a gate does not hold"
   $<TARGET_FILE:assay> verify spinning-body --levels 2 --set integrator=tvd-rk2 --set cfl=0.3
   --out gates/spinning-body-energy)
+# The tumbling box: u is off Euler's top by 1.05e-2, as softness squared, unless its outer halves are lighter by a tenth,
+# 3.3e-2, or heavier by a fifth, 2.5e-2, or a side of the top is 2 % longer, 3.1e-2, 1.4e-2, 2.0e-2.
+set(top $<TARGET_FILE:assay> verify free-top)
+assay_test(gate-free-top LABELS gate COMMAND ${top} --out gates/free-top)
+assay_test(gate-free-top-soft LABELS gate COMMAND ${top} --set softness=0.1 --out gates/free-top-soft)
+assay_test(gate-free-top-stiff LABELS gate slow COMMAND ${top} --set softness=0.03 --out gates/free-top-stiff)
+assay_test(gate-free-top-sbp2 LABELS gate COMMAND ${top} --levels 2,4 --set stencil=sbp2 --set softness=0.02
+  --out gates/free-top-sbp2)
+foreach(wrong lump=0.5 lump=0.9 lump=1.2 oracle.A=2.04 oracle.B=1.53 oracle.C=1.02)
+  string(MAKE_C_IDENTIFIER ${wrong} name)
+  set(slow slow)
+  if(wrong MATCHES "lump=0.9|lump=1.2")
+    set(slow)
+  endif()
+  assay_test(gate-free-top-sees-${name} LABELS gate mustfail ${slow} COMMAND ${fails} "<= 0.011        [-]  FAIL"
+    ${top} --set ${wrong} --out gates/free-top-${name})
+endforeach()
 # The twisting column: its axis stays where it is to round-off, unless its particles are not symmetric about it; the
 # checkerboard is 0.254 at n = 6, with {p,F} and nu = 0.499 0.685.
 assay_test(gate-twisting-column LABELS gate COMMAND $<TARGET_FILE:assay> verify twisting-column --levels 6

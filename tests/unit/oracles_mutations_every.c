@@ -72,7 +72,8 @@ static void small_changes_are_caught(void)
             now.state = mutations[i].state;
             now.energy = mutations[i].energy;
             now.extras = mutations[i].extras;
-            if (now.extras != NULL && (*k)->extras == NULL) {
+            bool of_nothing = mutations[i].state == stress || mutations[i].energy == strain_energy;
+            if ((now.extras != NULL && (*k)->extras == NULL) || (of_nothing && (*k)->rigid)) {
                 continue;
             }
             double smallest = smallest_caught(-4, -14, 2);
@@ -138,6 +139,9 @@ static void wrong_formulas_are_caught(void)
         begin(*k, value);
         for (size_t i = 0; i < sizeof states / sizeof *states; i++) {
             now.state = states[i];
+            if (now.state == sign_of_P && (*k)->rigid) {
+                continue;
+            }
             bool seen = caught(NULL);
             if (!seen) {
                 printf("%s: wrong formula %zu goes unseen\n", (*k)->name, i);
