@@ -256,53 +256,6 @@ void solver_run_free(struct solver_run *run)
     free(run);
 }
 
-/* Bytes of a particle that sweeps of a step move, if its arrays stream once: what they all share, fields read, rates
- * and fields written. An update needs the state at the start of the step, which the first stage has read with the
- * fields, and where it goes alone rates and, but for the first stage, state. */
-static double traffic(const struct solver_run *run, const struct solver_geometry *geometry, int first, int sweeps)
-{
-    double count = (double)run->cloud->count;
-    double number = (double)solver_state_bytes(&run->state);
-    double fields = solver_state_bytes_per_particle(&run->state, false);
-    double evolved = number * (double)run->state.evolved / count;
-    double rates = number * (double)run->state.rates / count;
-    int stage = first / SOLVER_STAGE_SWEEPS;
-    int begins = first % SOLVER_STAGE_SWEEPS;
-    bool updates = begins + sweeps > SOLVER_SWEEP_UPDATE;
-    bool reads = begins < SOLVER_SWEEP_UPDATE || sweeps > 1;
-    bool finds = begins + sweeps > SOLVER_SWEEP_RATES && (begins <= SOLVER_SWEEP_RATES || sweeps > 2);
-    double moved = reads ? geometry->bytes / count + fields : 0.0;
-    moved += finds ? rates : 0.0;
-    moved += updates ? fields : 0.0;
-    moved += begins == SOLVER_SWEEP_UPDATE ? rates : 0.0;
-    if (updates && (stage > 0 || begins > SOLVER_SWEEP_GRADIENTS)) {
-        moved += evolved;
-    }
-    return moved + (begins == SOLVER_SWEEP_UPDATE && sweeps == 1 && stage > 0 ? evolved : 0.0);
-}
-
-/* Of a whole step. Sweeps of a wave share what they move, but where they go one after another. */
-static double step_traffic(const struct solver_run *run, const struct solver_geometry *geometry)
-{
-    double moved = 0.0;
-    int sweeps;
-    for (int at = 0; at < SOLVER_STAGE_SWEEPS * run->integrator->stages; at += sweeps) {
-        sweeps = solver_run_wave(run, at);
-        if (solver_wave_follows(&run->wave[sweeps])) {
-            moved += traffic(run, geometry, at, sweeps);
-            continue;
-        }
-        for (int each = at; each < at + sweeps; each++) {
-            moved += traffic(run, geometry, each, 1);
-        }
-        if (run->scheme->evaluate != NULL && at % SOLVER_STAGE_SWEEPS == SOLVER_SWEEP_GRADIENTS) {
-            double pass = traffic(run, geometry, at, 1);
-            moved += (geometry->passes - 2) * pass; /* it counts as two sweeps */
-        }
-    }
-    return moved;
-}
-
 struct solver_facts solver_run_facts(const struct solver_run *run)
 {
     struct solver_geometry geometry = run->scheme->geometry(run->system);
@@ -311,6 +264,13 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
     double fields = solver_state_bytes_per_particle(&run->state, false);
     double composite = (double)(run->body.stride * sizeof *run->constants);
     double bytes = geometry.bytes / count;
+    double number = (double)solver_state_bytes(&run->state);
+    double evolved = number * (double)run->state.evolved / count;
+    double rates = number * (double)run->state.rates / count;
+    double passes = geometry.passes;
+    /* per stage: the geometry in each pass; fields read by each, rates written; in the update state, start and rates
+     * read, state and other fields written. The first stage reads no state but that at the start. */
+    double stage = passes * bytes + (passes + 1.0) * fields + 2.0 * evolved + 2.0 * rates;
     double mass = 0.0;
     for (size_t a = 0; a < run->cloud->count; a++) {
         mass += geometry.V[a] * solver_run_density(run, a);
@@ -328,7 +288,7 @@ struct solver_facts solver_run_facts(const struct solver_run *run)
         .seconds = run->seconds,
         .bytes_per_particle = state + bytes + composite,
         .state_bytes = fields,
-        .step_traffic = step_traffic(run, &geometry),
+        .step_traffic = run->integrator->stages * stage - evolved,
         .stencil_residual = geometry.residual,
         .threads = run->threads,
     };

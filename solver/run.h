@@ -81,8 +81,8 @@ struct solver_facts {
     double seconds;            /* time loop alone */
     double bytes_per_particle; /* all arrays of state, stencil and integrator, over the particle count */
     double state_bytes;        /* fields of the scheme alone, per particle */
-    double step_traffic;       /* bytes that one particle's step moves if every array streams once per wave of sweeps
-                                  (wave.h) and neighbours are found in cache */
+    double step_traffic;       /* bytes that one particle's step moves if every array streams once per sweep and
+                                  neighbours are found in cache; sweeps of a wave (wave.h) find more there */
     double stencil_residual;   /* largest relative violation of closure and linear exactness; NAN: no stencil */
     int threads;
 };

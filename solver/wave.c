@@ -200,11 +200,6 @@ void solver_wave_free(struct solver_wave *wave)
     *wave = (struct solver_wave){.sweeps = 0};
 }
 
-bool solver_wave_follows(const struct solver_wave *wave)
-{
-    return wave->sweeps > 0 && 2 * wave->in_round > solver_pieces(wave->count) * (size_t)wave->sweeps;
-}
-
 void solver_wave_arrays(const struct solver_wave *wave, struct solver_cost_arrays *arrays)
 {
     size_t sweeps = (size_t)wave->sweeps;

@@ -40,8 +40,6 @@ typedef void solver_wave_sweep(void *context, int sweep, size_t begin, size_t en
 bool solver_wave_create(struct solver_wave *wave, size_t count, struct solver_wave_graph graph, int sweeps, int threads,
                         struct solver_error *error);
 void solver_wave_free(struct solver_wave *wave);
-/* Whether sweeps follow one another piece by piece: for the most part, in the first round. */
-bool solver_wave_follows(const struct solver_wave *wave);
 void solver_wave_arrays(const struct solver_wave *wave, struct solver_cost_arrays *arrays);
 void solver_wave_run(const struct solver_wave *wave, solver_wave_sweep *sweep, void *context);
 

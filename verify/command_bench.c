@@ -159,11 +159,12 @@ static void print_foot(void)
         "of\n"
         "%d samples. ns/nb-rhs: the same per neighbour and right-hand side. B/part.: memory per particle. B moved: "
         "what\n"
-        "a particle's step moves if every array streams once per wave. flops: its operations as assay cost declares\n"
+        "a particle's step moves if every array streams once per sweep. flops: its operations as assay cost declares\n"
         "them. triad: bandwidth measured on arrays as large as the run's; Gflop/s: multiply-adds alone. of roof: the\n"
-        "time which the slower of traffic and operations takes at these rates, over the time measured. mixed, single:\n"
-        "how many times as fast that precision is, steps of each taken in turns; -: the scene cannot be run in it, or\n"
-        "the row is of another than double itself.\n",
+        "time which the slower of traffic and operations takes at these rates, over the time measured; more than all\n"
+        "where sweeps find in cache what the ones before have left. mixed, single: how many times as fast that\n"
+        "precision is, steps of each taken in turns; -: the scene cannot be run in it, or the row is of another than\n"
+        "double itself.\n",
         VERIFY_SAMPLES);
 }
 

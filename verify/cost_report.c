@@ -67,7 +67,7 @@ static void print_terms(const struct verify_cost_case *of)
     }
     (void)printf("  %-34s %14.1f\n", "all", of->flops);
     (void)printf(
-        "\nA particle's step takes %.1f ns, %.2f flop/ns; it moves %.0f B if every array streams once per wave, "
+        "\nA particle's step takes %.1f ns, %.2f flop/ns; it moves %.0f B if every array streams once per sweep, "
         "%.2f B/ns.\n",
         1e9 * of->seconds, 1e-9 * of->flops / of->seconds, of->facts.step_traffic,
         1e-9 * of->facts.step_traffic / of->seconds);

@@ -22,7 +22,7 @@ enum {
 /* What a run costs. */
 enum verify_cost {
     VERIFY_PAIRS,   /* right-hand sides evaluated, times pairs */
-    VERIFY_BYTES,   /* moved in the time loop, if every array streams once per wave (run.h) [B] */
+    VERIFY_BYTES,   /* moved in the time loop, if every array streams once per sweep (run.h) [B] */
     VERIFY_SECONDS, /* wall time of set-up and time loop [s] */
     VERIFY_COSTS
 };
