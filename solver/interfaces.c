@@ -3,6 +3,7 @@
 #include "solver/memory.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* How many particles of each plane differ from their neighbours before it, along one axis. */
 static void count_differing(const struct solver_cloud *cloud, const struct solver_material_constants *constants,
@@ -70,4 +71,10 @@ bool solver_interfaces_find(struct solver_cloud *cloud, const struct solver_mate
     free(differing);
     free(particle_at);
     return ok;
+}
+
+bool solver_interfaces_there(const struct solver_cloud *cloud)
+{
+    size_t planes = (size_t)cloud->points[0] + cloud->points[1] + cloud->points[2];
+    return cloud->interface != NULL && memchr(cloud->interface, 1, planes) != NULL;
 }

@@ -14,5 +14,7 @@ enum { SOLVER_INTERFACES_APART = 8 }; /* particles from one plane to the next, b
  * Does nothing to a cloud that is no whole lattice. SOLVER_NO_MEMORY. */
 bool solver_interfaces_find(struct solver_cloud *cloud, const struct solver_material_constants *constants,
                             struct solver_error *error);
+/* Whether there is one. */
+bool solver_interfaces_there(const struct solver_cloud *cloud);
 
 #endif

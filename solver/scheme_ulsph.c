@@ -5,11 +5,13 @@
  * the same: weighted by the cut volumes (ulsph.cells) they make the period of the cantilever 2.6 % too long at ten
  * particles across, by whole cells 0.4 %. */
 #include "solver/faces.h"
+#include "solver/interfaces.h"
 #include "solver/memory.h"
 #include "solver/pieces.h"
 #include "solver/scheme.h"
 #include "solver/skin.h"
 #include "solver/ulsph.h"
+#include "solver/ulsph_step.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -32,13 +34,6 @@ static const struct solver_material_constants *constants_of(const struct system 
     return system->body->constants + a * system->body->stride;
 }
 
-/* Whether there is a plane where materials meet. */
-static bool holds_interface(const struct solver_cloud *cloud)
-{
-    size_t planes = (size_t)cloud->points[0] + cloud->points[1] + cloud->points[2];
-    return cloud->interface != NULL && memchr(cloud->interface, 1, planes) != NULL;
-}
-
 static void choose_terms(struct system *system)
 {
     const struct solver_scene *scene = system->body->scene;
@@ -46,7 +41,7 @@ static void choose_terms(struct system *system)
     system->loops = loops[solver_path()][scene->dim - 1];
     const struct solver_cloud *cloud = system->body->cloud;
     system->work = (struct solver_ulsph){
-        .interface = holds_interface(cloud) ? cloud->interface : NULL,
+        .interface = solver_interfaces_there(cloud) ? cloud->interface : NULL,
         .site = cloud->site,
         .points = cloud->points,
         .constants = system->body->constants,
@@ -291,37 +286,6 @@ static void bind(struct system *system)
     }
 }
 
-/* As of the total-Lagrangian scheme (upwind_step.c): a particle held by its neighbours alone swings with omega^2 = k
- * / m, k = sum_b V_b (lambda + 2 mu)_b |V_a s L_b r|^2, where kernels reach from a stiff material to a light one faster
- * than waves run in either. On a line of one material omega is c / sqrt(2) over the spacing for neighbours next to one
- * another, where the fastest mode has c. Returns the square root of the largest half mean modulus of neighbours over a
- * particle's own density, over c^2 of the fastest wave, or 1. What is dissipated where materials meet is that of the
- * lighter one (ulsph_dim.c) and asks for nothing. */
-static double meeting_of(struct system *system)
-{
-    const struct solver_ulsph *work = &system->work;
-    size_t dim = (size_t)system->body->cloud->dim;
-    double meeting = 0.0;
-    system->loops->volumes(work, 0, system->body->cloud->count);
-    system->loops->geometry(work, 0, system->body->cloud->count);
-    for (size_t a = 0; a < system->body->cloud->count; a++) {
-        double sum = 0.0;
-        double weights = 0.0;
-        for (size_t ab = work->row[a]; ab < work->row[a + 1]; ab++) {
-            const double *pair = work->pair + ab * (dim + 2);
-            const struct solver_material_constants *of_b = constants_of(system, work->neighbour[ab]);
-            double weight = 0.0;
-            for (size_t i = 0; i < dim; i++) {
-                weight += pair[dim] * pair[dim] * pair[i] * pair[i];
-            }
-            sum += weight * of_b->zp * of_b->cp;
-            weights += weight;
-        }
-        meeting = weights > 0.0 ? fmax(meeting, sum / (weights * constants_of(system, a)->rho)) : meeting;
-    }
-    return fmax(1.0, sqrt(0.5 * meeting) / system->fastest);
-}
-
 static void turn(void *of, struct solver_state *state)
 {
     solver_state_turn(state);
@@ -345,7 +309,12 @@ static bool start(void *of, struct solver_error *error)
     if (!find_neighbours(system, error)) {
         return false;
     }
-    system->meeting = system->body->stride != 0 ? meeting_of(system) : 1.0;
+    system->meeting = 1.0;
+    if (system->body->stride != 0) {
+        system->loops->volumes(work, 0, system->body->cloud->count);
+        system->loops->geometry(work, 0, system->body->cloud->count);
+        system->meeting = solver_ulsph_step_share(work, system->body, system->fastest);
+    }
     return true;
 }
 
