@@ -196,6 +196,28 @@ static void narrow_matrix(void)
     }
 }
 
+/* Numbers below a float's usual range, which would take long, count as zero while it smooths, and only then. */
+static void tiny_changes(void)
+{
+    volatile float tiny = 1e-40f;
+    for (int dim = 1; dim <= 3; dim++) {
+        struct system of;
+        open_system(&of, dim, 9, 0.0, 2.1);
+        struct solver_closure *closure = &of.closure;
+        size_t numbers = of.cloud->count * closure->smoother->width, made = 0;
+        for (size_t at = 0; at < numbers; at++) {
+            closure->step[at] = tiny;
+        }
+        closure->smoother->smooth(closure, 1.0f, 1.0f, 0, of.cloud->count);
+        for (size_t at = 0; at < numbers; at++) {
+            made += closure->left[at] != 0.0f || closure->next[at] != 0.0f || closure->change[at] != 0.0f;
+        }
+        CU_ASSERT_EQUAL(made, 0);
+        CU_ASSERT(tiny * 2.0f > tiny);
+        close_system(&of);
+    }
+}
+
 /* Eight digits take few iterations, and hardly more for ten times as many particles; in 1D, where a particle has four
  * neighbours, and on lattices they grow slowly. */
 static void iterations(void)
@@ -270,8 +292,9 @@ static void same_bytes(void)
 int main(void)
 {
     static const struct unit_test tests[] = {
-        {"nested spaces", spaces},    {"matrix in single precision", narrow_matrix},  {"iterations", iterations},
-        {"no solution", no_solution}, {"same bytes for 1 and 3 threads", same_bytes},
+        {"nested spaces", spaces},      {"matrix in single precision", narrow_matrix},
+        {"tiny changes", tiny_changes}, {"iterations", iterations},
+        {"no solution", no_solution},   {"same bytes for 1 and 3 threads", same_bytes},
     };
     return unit_main("solver closure", tests, sizeof tests / sizeof *tests);
 }
