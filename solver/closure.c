@@ -14,6 +14,9 @@ enum { SMOOTH = 6, GRID_SMOOTH = 2, PATIENCE = 40 };
 static const double largest = 2.0;
 /* The cycle rounds to single precision, and z, moved step by step, is made anew when the residual has fallen so far. */
 static const double anew = 1e-3;
+/* Pairs that smoothing takes for what they weigh on the diagonal: of less than this part of the heaviest. Iterations
+ * stay what they are, also at 3e-3. */
+static const double hardly = 1e-2;
 
 static size_t width_of(const struct solver_closure *of)
 {
@@ -259,7 +262,7 @@ bool solver_closure_open(struct solver_closure *of, const struct solver_cloud *c
     }
     if (!solver_alloc((void **)&of->X, count * lanes, sizeof(double), "places", error) ||
         !solver_alloc((void **)&of->weight, graph->row[count], sizeof(double), "pair weights", error) ||
-        !solver_alloc((void **)&of->pair, graph->row[count] * 4, sizeof(float), "pair weights", error) ||
+        !solver_alloc((void **)&of->strong_row, count + 1, sizeof *of->strong_row, "pair weights", error) ||
         !solver_alloc((void **)&of->own, count * 16, sizeof(float), "diagonal blocks", error) ||
         !solver_alloc((void **)&of->inverse, count * 16, sizeof(float), "diagonal blocks", error) ||
         !solver_alloc((void **)&of->partial, solver_pieces(count) * lanes, sizeof(double), "sums", error)) {
@@ -273,8 +276,32 @@ bool solver_closure_open(struct solver_closure *of, const struct solver_cloud *c
     return true;
 }
 
+/* Which pairs smoothing sees. */
+static bool strong_pairs(struct solver_closure *of, struct solver_error *error)
+{
+    const struct solver_graph *graph = of->graph;
+    size_t count = graph->count;
+    double heaviest = 0.0;
+    for (size_t ab = 0; ab < graph->row[count]; ab++) {
+        heaviest = fmax(heaviest, of->weight[ab]);
+    }
+    of->weak = hardly * heaviest;
+    for (size_t a = 0; a < count; a++) {
+        of->strong_row[a + 1] = of->strong_row[a];
+        for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
+            of->strong_row[a + 1] += of->weight[ab] >= of->weak;
+        }
+    }
+    size_t pairs = of->strong_row[count];
+    return solver_alloc((void **)&of->strong, pairs, sizeof *of->strong, "pair weights", error) &&
+           solver_alloc((void **)&of->pair, pairs * 4, sizeof(float), "pair weights", error);
+}
+
 bool solver_closure_ready(struct solver_closure *of, double radius, struct solver_error *error)
 {
+    if (!strong_pairs(of, error)) {
+        return false;
+    }
     OVER_PIECES(of->cloud->count, of->smoother->prepare(of, at.begin, at.end));
     return solver_closure_grids(of, radius, error);
 }
@@ -295,6 +322,8 @@ void solver_closure_close(struct solver_closure *of)
     free(of->next);
     free(of->X);
     free(of->weight);
+    free(of->strong_row);
+    free(of->strong);
     free(of->pair);
     free(of->own);
     free(of->inverse);

@@ -64,7 +64,10 @@ struct solver_closure {
     double *residual, *solution, *direction, *image, *z, *z_image, *back;
     double *partial; /* [pieces][lanes] */
     /* smoothing, in single precision (closure_smooth_dim.c) */
-    float *pair;                        /* [pairs][4] sqrt(w) (-1, d/2) */
+    double weak;                        /* pairs of less weight are on the diagonal only */
+    size_t *strong_row;                 /* [count + 1] first of the others, of each particle */
+    uint32_t *strong;                   /* [strong pairs] the neighbour */
+    float *pair;                        /* [strong pairs][4] sqrt(w) (-1, d/2) */
     float *own, *inverse;               /* [count][4][4] the blocks on M's diagonal, and their inverses */
     float *change, *left, *step, *next; /* [count][smoother's width] */
     int iterations;                     /* taken so far, in all solutions */

@@ -3,7 +3,8 @@
  * A narrow vector is [count][COLUMNS][4] floats: for each component of C four numbers, alpha, then beta by components,
  * padded with zeros; in 3D a fourth column, of zeros, fills the widest vectors. A pair has sqrt(w) (-1, d/2): with
  * s = sum of that times u_b, what b gives to (M u)_a is that times s, but for the sign of the first. What a itself
- * gives is its diagonal block. */
+ * gives is its diagonal block. Pairs that hardly weigh are in those blocks only: as (x + y)^2 <= 2 x^2 + 2 y^2 on a
+ * pair, the matrix that smoothing sees is at least M / 2 then, and steps that are stable for it are for M. */
 #include "solver/closure.h"
 
 #include "solver/dim.h"
@@ -93,14 +94,13 @@ static inline struct narrow times_block(const float *block, struct narrow v)
     return out;
 }
 
-/* (M u)_a */
+/* (M u)_a, weak pairs' own parts only */
 static inline struct narrow image_of(const struct solver_closure *of, const float *u, size_t a)
 {
     static const float flip[FOUR] __attribute__((aligned(16))) = {-1.0f, 1.0f, 1.0f, 1.0f};
-    const struct solver_graph *graph = of->graph;
     struct narrow sum = {{{0}}};
-    for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
-        const float *u_b = u + (size_t)graph->neighbour[ab] * NARROW;
+    for (size_t ab = of->strong_row[a]; ab < of->strong_row[a + 1]; ab++) {
+        const float *u_b = u + (size_t)of->strong[ab] * NARROW;
         part c = in_each(of->pair + ab * FOUR);
         for (int p = 0; p < PARTS; p++) {
             sum.of[p] += c * column_sum(c * *(const part *)(u_b + p * PART));
@@ -129,14 +129,21 @@ static void prepare(struct solver_closure *of, size_t begin, size_t end)
     const struct solver_graph *graph = of->graph;
     for (size_t a = begin; a < end; a++) {
         double block[4][4] = {{0}};
+        size_t kept_pair = of->strong_row[a];
         for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
             vec half = of->scale * (load(of->X + (size_t)graph->neighbour[ab] * LANES) - load(of->X + a * LANES));
-            double root = sqrt(of->weight[ab]);
             double g[WIDTH] = {1.0};
-            of->pair[ab * FOUR] = (float)-root;
             for (int i = 0; i < DIM; i++) {
                 g[i + 1] = half[i];
-                of->pair[ab * FOUR + (size_t)i + 1] = (float)(root * half[i]);
+            }
+            if (of->weight[ab] >= of->weak) {
+                float *pair = of->pair + kept_pair * FOUR;
+                double root = sqrt(of->weight[ab]);
+                of->strong[kept_pair++] = graph->neighbour[ab];
+                pair[0] = (float)-root;
+                for (int i = 0; i < DIM; i++) {
+                    pair[i + 1] = (float)(root * half[i]);
+                }
             }
             for (int i = 0; i < WIDTH; i++) {
                 for (int j = 0; j < WIDTH; j++) {
@@ -160,9 +167,32 @@ static void prepare(struct solver_closure *of, size_t begin, size_t end)
 
 /* --- the steps --- */
 
+/* Changes die away from where they begin, and numbers below a float's usual range take processors a hundred times as
+ * long; they count as zero from `begin_flush` on, until what it gave is handed to `end_flush`. */
+static inline unsigned begin_flush(void)
+{
+    unsigned kept = 0;
+#ifdef __SSE__
+    enum { OF_RESULTS = 0x8000, OF_OPERANDS = 0x40 };
+    kept = __builtin_ia32_stmxcsr();
+    __builtin_ia32_ldmxcsr(kept | OF_RESULTS | OF_OPERANDS);
+#endif
+    return kept;
+}
+
+static inline void end_flush(unsigned kept)
+{
+#ifdef __SSE__
+    __builtin_ia32_ldmxcsr(kept);
+#else
+    (void)kept;
+#endif
+}
+
 static void start(const struct solver_closure *of, float factor, const double *r, const double *image, size_t begin,
                   size_t end)
 {
+    unsigned kept = begin_flush();
     for (size_t a = begin; a < end; a++) {
         float *left = of->left + a * NARROW;
         for (size_t k = 0; k < DIM; k++) {
@@ -178,10 +208,12 @@ static void start(const struct solver_closure *of, float factor, const double *r
         store_narrow(of->step + a * NARROW, z);
         store_narrow(of->change + a * NARROW, (struct narrow){{{0}}});
     }
+    end_flush(kept);
 }
 
 static void smooth(const struct solver_closure *of, float keep, float factor, size_t begin, size_t end)
 {
+    unsigned kept = begin_flush();
     for (size_t a = begin; a < end; a++) {
         struct narrow image = image_of(of, of->step, a);
         struct narrow x = load_narrow(of->change + a * NARROW);
@@ -199,6 +231,7 @@ static void smooth(const struct solver_closure *of, float keep, float factor, si
         store_narrow(of->left + a * NARROW, r);
         store_narrow(of->next + a * NARROW, z);
     }
+    end_flush(kept);
 }
 
 static void finish(const struct solver_closure *of, double *z, size_t begin, size_t end)
