@@ -171,7 +171,10 @@ size_t solver_upwind_fields(void *of, struct solver_field table[SOLVER_STATE_FIE
     bool pressure = work->evolves_J && !work->whole_jump && system->rates == NULL;
     bool stiffens = work->evolves_J && system->rates == NULL && work->material->stiffness_range != NULL;
     bool slopes = work->reconstruct && system->rates == NULL;
-    bool placed = system->rates == NULL && (work->frozen || work->reconstruct || work->evolves_J);
+    /* loops over rows along axes (dim_aligned.h) ask for places only to reconstruct */
+    bool by_axes = work->along != NULL && work->stride == 0 && !(work->evolves_J && work->whole_jump);
+    bool elsewhere = work->constrained || (!by_axes && (work->frozen || work->evolves_J));
+    bool placed = system->rates == NULL && (work->reconstruct || elsewhere);
     size_t remembered = work->hardening != NULL ? work->material->flow->width : 0;
     const struct solver_field rows[] = {
         {"v", vector, true, {&work->v}, {&work->v_rate}, 0},
