@@ -87,6 +87,8 @@ assay_test(cli-bench-of-one-precision LABELS unit COMMAND sh -c
   "'$<TARGET_FILE:assay>' bench swinging-cube --levels 3 --set stencil=sbp2 --set evolved=pF --set precision=single | grep -E ${last_columns}( +-){2}$'")
 assay_test(cli-bench-of-what-fits LABELS unit COMMAND ${cli} 0 "sbp4     pF     refused: " ${assay} bench breathing-cylinder --set precision=double
   --set n=4 --set evolved=pF)
+assay_test(cli-bench-of-what-breaks LABELS mustfail UNTRAPPED "runs break down" COMMAND ${cli} 3 "sbp2     pF     broke down: step "
+  ${assay} bench swinging-cube --levels 4 --set stencil=sbp2 --set evolved=pF --set cfl=3)
 cli_refuses(bench-of-nothing "single is for antisymmetric stencils" bench swinging-cube --set n=4 --set precision=single
             --set stencil=sph)
 assay_test(cli-version-path LABELS unit ENVIRONMENT ASSAY_ISA=baseline COMMAND ${cli} 0 "loops for baseline"

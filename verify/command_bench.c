@@ -117,8 +117,8 @@ static bool row(const struct verify_options *options, int n, const char *stencil
     return done;
 }
 
-/* A row for each stencil and evolved set, as far as the command line leaves them open; one that the scene refuses says
- * so. False if there is none that it does not. */
+/* A row for each stencil and evolved set, as far as the command line leaves them open; one that the scene refuses, or
+ * that breaks down, says so. False if all do. */
 static bool rows(const struct verify_options *options, int n, struct solver_error *error)
 {
     static const char *const evolved[] = {"pF", "pFJ", "pFHJ"};
@@ -134,8 +134,9 @@ static bool rows(const struct verify_options *options, int n, struct solver_erro
             }
             if (row(options, n, builder->name, evolved[i], error)) {
                 measured++;
-            } else if (error->code == SOLVER_BAD_INPUT) {
-                (void)printf("%-8s %-6s refused: %s\n", builder->name, evolved[i], error->text);
+            } else if (error->code == SOLVER_BAD_INPUT || error->code == SOLVER_BROKE_DOWN) {
+                (void)printf("%-8s %-6s %s: %s\n", builder->name, evolved[i],
+                             error->code == SOLVER_BAD_INPUT ? "refused" : "broke down", error->text);
             } else {
                 return false;
             }

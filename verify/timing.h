@@ -15,7 +15,7 @@ double verify_clock(int threads);
 /* Seconds per step by that clock: the best of VERIFY_SAMPLES, each long enough for the clock. */
 bool verify_time_steps(struct solver_run *run, double *seconds, struct solver_error *error);
 /* The same of at most VERIFY_TURNS runs, seconds[count], whose samples are taken in turns, so that they can be compared
- * on a machine that others use too. Runs that are NULL are passed over. */
+ * on a machine that others use too. Runs that are NULL, and others than the first that break down, have NaN. */
 bool verify_time_turns(struct solver_run *const *run, size_t count, double *seconds, struct solver_error *error);
 
 #endif
