@@ -254,11 +254,12 @@ static inline void onto_box(const struct solver_closure *of, size_t a, double si
     line x = sign * value + half[0] * slope;
     for (int n = 0; n < SPLINES / 3; n++) {
         int at_line = 0;
+#if DIM == 1
         line sum = x;
-#if DIM > 1
+#else
         int j = n % 3;
         at_line = j + shift[1];
-        sum = at.value[1][j] * x + half[1] * at.slope[1][j] * value;
+        line sum = at.value[1][j] * x + half[1] * at.slope[1][j] * value;
 #endif
 #if DIM > 2
         int k = n / 3;

@@ -88,6 +88,13 @@ static const char *const fault_names[FAULTS] = {"displacement",  "velocity",    
                                                 "stress",        "clock",        "kinetic energy",
                                                 "strain energy", "extra scalars"};
 
+/* A stress or a strain energy that is off. Of a rigid kind, which says 0, the flux of momentum p v and the kinetic
+ * energy are off `instead`. */
+static double off(double right, double instead)
+{
+    return right + FAULT * (right != 0.0 || !spoiling.right->rigid ? right : instead);
+}
+
 static void spoiled_state(const struct oracle *oracle, const double X[3], double t, struct oracle_state *state)
 {
     double factor = 1 + FAULT;
@@ -99,7 +106,7 @@ static void spoiled_state(const struct oracle *oracle, const double X[3], double
             state->v[i] *= spoiling.fault == VELOCITY ? factor : 1;
         }
         state->F[i] = spoiling.fault == GRADIENT ? unit + factor * (state->F[i] - unit) : state->F[i];
-        state->P[i] *= spoiling.fault == STRESS ? factor : 1;
+        state->P[i] = spoiling.fault == STRESS ? off(state->P[i], state->p[i / 3] * state->v[i % 3]) : state->P[i];
     }
 }
 
@@ -107,7 +114,7 @@ static void spoiled_energy(const struct oracle *oracle, double t, double *kineti
 {
     spoiling.right->energy(oracle, t, kinetic, strain);
     *kinetic *= spoiling.fault == KINETIC ? 1 + FAULT : 1;
-    *strain *= spoiling.fault == STRAIN ? 1 + FAULT : 1;
+    *strain = spoiling.fault == STRAIN ? off(*strain, *kinetic) : *strain;
 }
 
 static void spoiled_extras(const struct oracle *oracle, const double X[3], double t, double value[ORACLE_EXTRAS])

@@ -197,8 +197,9 @@ static void order(void)
     struct solver_cloud *cloud = make(shape, 2, 0.1);
     CU_ASSERT_EQUAL_FATAL(cloud->count, 256);
     for (size_t a = 0; a < 256; a++) {
+        size_t row = a / 16;
         CU_ASSERT_DOUBLE_EQUAL(cloud->X[2 * a], 0.1 * ((double)(a % 16) + 0.5), 1e-14);
-        CU_ASSERT_DOUBLE_EQUAL(cloud->X[2 * a + 1], 0.1 * ((double)(a / 16) + 0.5), 1e-14);
+        CU_ASSERT_DOUBLE_EQUAL(cloud->X[2 * a + 1], 0.1 * ((double)row + 0.5), 1e-14);
     }
     CU_ASSERT(cloud->body[0] == 0 && cloud->body[255] == 1);
     solver_cloud_free(cloud);
