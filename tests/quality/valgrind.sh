@@ -38,6 +38,8 @@ declare -A only=(
   [test_solver_wall]="oblique wall"                          # others: every integrator in every dimension
   [test_verify_manufactured]="body force"                    # others: the self-checks of all kinds, by quadrature
   [test_solver_rotation]="F of a cell led through a turn|materials at F = R|the rotation itself" # others: long runs
+  [test_solver_roots]="what has none"                        # others: against long double, which valgrind rounds to double
+  [test_solver_wave]="a front of sweeps"                     # others: clang's OpenMP loses memory where teams change size
   [test_solver_closure]="nested spaces"                      # others: solutions, over and over: minutes
   [test_solver_single]="bytes|breakdown"                     # others: runs beside those in double precision: minutes
   [test_solver_symmetry]="whatever the terms"                # others: factorised stencils of balls and cylinders
