@@ -313,7 +313,7 @@ static bool start(void *of, struct solver_error *error)
     if (system->body->stride != 0) {
         system->loops->volumes(work, 0, system->body->cloud->count);
         system->loops->geometry(work, 0, system->body->cloud->count);
-        system->meeting = solver_ulsph_step_share(work, system->body, system->fastest);
+        system->meeting = solver_ulsph_step_share(work, system->body);
     }
     return true;
 }

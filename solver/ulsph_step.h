@@ -5,7 +5,7 @@
 #include "solver/scheme.h"
 #include "solver/ulsph.h"
 
-/* At least 1, from the pairs of the present state; `fastest`: the fastest wave [m/s]. */
-double solver_ulsph_step_share(const struct solver_ulsph *work, const struct solver_body *body, double fastest);
+/* At least 1, from the pairs of the present state. */
+double solver_ulsph_step_share(const struct solver_ulsph *work, const struct solver_body *body);
 
 #endif

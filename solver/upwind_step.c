@@ -1,36 +1,20 @@
 /* What couples faster than the waves of eq. 41 count: where materials meet, and where particles crowd. */
 #include "solver/upwind_step.h"
 
+#include "solver/meeting.h"
+
 #include <math.h>
 
-/* Where the stencil of a stiff particle reaches a light one its stress moves that one's mass, faster than waves run in
- * either material. A particle held by its neighbours alone swings with omega^2 = k / m, k = sum_b (lambda + 2 mu)_b
- * |C_ab|^2 / 4 V_b. On a line of one material omega h is c / sqrt(2), where the fastest mode has c: so what counts is
- * half the neighbours' mean modulus over a particle's own density. Returns the square root of the largest over c^2 of
- * the fastest wave, or 1, which it is where a particle on the interface, of both sides' mean density and compliance,
- * hides them from each other. */
-static double meeting_of(const struct solver_stencil *stencil, const struct solver_material_constants *constants)
+/* Of k = sum_b (lambda + 2 mu)_b |C_ab|^2 / 4 V_b. */
+static double meeting_weight(const void *context, size_t a, size_t ab)
 {
-    double fastest = 0.0;
-    double meeting = 0.0;
-    for (size_t a = 0; a < stencil->graph.count; a++) {
-        double sum = 0.0;
-        double weights = 0.0;
-        size_t shift = solver_stencil_shift(stencil, a);
-        for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
-            size_t b = stencil->graph.neighbour[ab];
-            const double *C = solver_stencil_C(stencil, ab + shift);
-            double weight = 0.0;
-            for (int i = 0; i < stencil->dim; i++) {
-                weight += C[i] * C[i] / stencil->V[b];
-            }
-            sum += weight * constants[b].zp * constants[b].cp;
-            weights += weight;
-        }
-        fastest = fmax(fastest, constants[a].cp * constants[a].cp);
-        meeting = weights > 0.0 ? fmax(meeting, sum / (weights * constants[a].rho)) : meeting;
+    const struct solver_stencil *stencil = context;
+    const double *C = solver_stencil_C(stencil, ab + solver_stencil_shift(stencil, a));
+    double square = 0.0;
+    for (int i = 0; i < stencil->dim; i++) {
+        square += C[i] * C[i];
     }
-    return fmax(1.0, sqrt(0.5 * meeting / fastest));
+    return square / stencil->V[stencil->graph.neighbour[ab]];
 }
 
 /* What particles that were moved at random share as faces: the areas A_ab = max(0, N_ab . C_ab) of the dissipation sum
@@ -63,6 +47,9 @@ static double crowding_of(const struct solver_stencil *stencil, const struct sol
 
 double solver_upwind_step_share(const struct solver_stencil *stencil, const struct solver_body *body)
 {
-    double meeting = body->stride != 0 ? meeting_of(stencil, body->constants) : 1.0;
+    const struct solver_graph *graph = &stencil->graph;
+    bool composite = body->stride != 0;
+    double meeting =
+        composite ? solver_meeting_share(body, graph->row, graph->neighbour, meeting_weight, stencil) : 1.0;
     return body->scene->perturb > 0.0 ? fmax(meeting, crowding_of(stencil, body->cloud)) : meeting;
 }
