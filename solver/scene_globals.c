@@ -176,7 +176,7 @@ static int global_get(lua_State *L)
     const char *name = lua_type(L, 2) == LUA_TSTRING ? lua_tostring(L, 2) : "?";
     if (scene_key_is_root(name))
         scene_refuse(L, "%s: read before it is assigned", name);
-    char near[2 * SOLVER_NAME];
+    char near[SOLVER_TEXT];
     scene_key_suggest(name, near, sizeof near);
     scene_refuse(L, "%.60s: undefined name%s", name, near);
 }
@@ -224,7 +224,7 @@ static void declare_parameters(lua_State *L, int table)
 static int global_set(lua_State *L)
 {
     struct solver_scene_lua *lua = scene_lua_of(L);
-    char near[2 * SOLVER_NAME];
+    char near[SOLVER_TEXT];
     if (lua_type(L, 2) != LUA_TSTRING)
         scene_refuse_value(L, "_ENV", "a key that is text", 2);
     const char *name = lua_tostring(L, 2);

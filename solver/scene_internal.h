@@ -46,7 +46,8 @@ bool scene_key_is_root(const char *name);
 void scene_check_range(lua_State *L, const struct solver_scene *scene);
 /* Whether `--set PATH=...` can mean anything; a name without dots may still be a parameter. */
 bool scene_key_admits(const char *path);
-/* ", did you mean material.nu?" for the nearest key, "" if none is near. */
+/* ", did you mean material.nu?" for the nearest key; if none is near "; there are ..." with the keys of the same group,
+ * "" if it has no group. `out` is [SOLVER_TEXT]. */
 void scene_key_suggest(const char *path, char *out, size_t size);
 /* Place of `word` in a list of words, -1 if absent; *later tells that it is promised for later. */
 int scene_word_find(const char *words, const char *word, bool *later);

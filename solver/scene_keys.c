@@ -218,8 +218,8 @@ X("view.field", TEXT, AT(view.field), 0, 0, SOLVER_NAME, "", NEEDED, "name of a 
 X("view.range", NUMBERS, AT(view.range), 0, 0, 2, "", NEEDED, "list of 2 numbers, increasing", "colour range")         \
 X("view.bands", INTEGER, AT(view.bands), 2, 64, 0, "", "12", "whole number in [2, 64]", "filled contour bands")        \
 X("view.direction", NUMBERS, AT(view.direction), 0, 0, 3, "", "{1,0.8,0.6}", "list of 3 numbers",                      \
-  "from the body towards the eye")                                                                                     \
-X("view.up", NUMBERS, AT(view.up), 0, 0, 3, "", "{0,0,1}", "list of 3 numbers", "what points up in the picture")       \
+  "from the body towards the eye; default {1, 0.8, 0.6}, in a plane {0, 0, 1}")                                                                                     \
+X("view.up", NUMBERS, AT(view.up), 0, 0, 3, "", "{0,0,1}", "list of 3 numbers", "what points up in the picture; default {0, 0, 1}, in a plane {0, 1, 0}")       \
 X("view.magnify", NUMBER, AT(view.magnify), 0, DBL_MAX, 0, "", "1", "number >= 0",                                     \
   "displacement shown / displacement")                                                                                 \
 X("view.size", INTEGERS, AT(view.size), 64, 8192, 2, "", "{1200,900}", "list of 2 whole numbers in [64, 8192]",        \
@@ -298,6 +298,16 @@ static size_t distance(const char *a, const char *b, size_t b_length)
     return row[b_length];
 }
 
+/* "; there are material.model, material.E, ..." of a path whose group has keys; "" else. */
+static void list_group(const char *path, char *out, size_t size)
+{
+    size_t group = strcspn(path, "."), used = 0;
+    out[0] = '\0';
+    for (int i = 0; keys[i].key && path[group] && used < size; i++)
+        if (!strncmp(keys[i].key, path, group + 1))
+            used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "; there are ", keys[i].key);
+}
+
 void scene_key_suggest(const char *path, char *out, size_t size)
 {
     size_t length = strlen(path), best = length < 2 ? 1 : length < 3 ? 2 : 3; /* farther is no likeness */
@@ -317,6 +327,8 @@ void scene_key_suggest(const char *path, char *out, size_t size)
             snprintf(out, size, ", did you mean %s?", key);
         }
     }
+    if (out[0] == '\0')
+        list_group(path, out, size);
 }
 
 int scene_word_find(const char *words, const char *word, bool *later)

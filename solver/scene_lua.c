@@ -276,7 +276,7 @@ static int call_formula(lua_State *L)
     lua_call(L, 4, LUA_MULTRET);
     size_t got = (size_t)(lua_gettop(L) - base);
     if (got != ask->count)
-        scene_refuse(L, "expected %zu numbers, got %zu values", ask->count, got);
+        scene_refuse(L, "expected %zu number%s, got %zu", ask->count, ask->count == 1 ? "" : "s", got);
     for (size_t i = 0; i < got; i++) {
         char which[32];
         snprintf(which, sizeof which, "value %zu", i + 1);

@@ -24,7 +24,7 @@ bool scene_overrides_parse(struct solver_scene_lua *lua, const char *const *over
         override->value = equals + 1;
         override->text = text;
         if (strchr(override->key, '.') && !scene_key_admits(override->key)) {
-            char near[2 * SOLVER_NAME];
+            char near[SOLVER_TEXT];
             scene_key_suggest(override->key, near, sizeof near);
             return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: --set %.120s: unknown key%s", path, text, near);
         }
@@ -69,7 +69,7 @@ void scene_push_spelling(lua_State *L, const char *key, const char *text)
 
 static _Noreturn void refuse_unknown(lua_State *L, const struct scene_override *override)
 {
-    char near[2 * SOLVER_NAME];
+    char near[SOLVER_TEXT];
     scene_key_suggest(override->key, near, sizeof near);
     scene_refuse(L, "--set %.120s: unknown key%s", override->text, near);
 }

@@ -141,7 +141,7 @@ static void check_group(lua_State *L, const char *group)
 {
     scene_lua_push(L, group);
     if (!lua_isnil(L, -1)) {
-        char path[2 * SOLVER_NAME], near[2 * SOLVER_NAME];
+        char path[2 * SOLVER_NAME], near[SOLVER_TEXT];
         if (!lua_istable(L, -1))
             scene_refuse_value(L, group, "a table", -1);
         for (lua_pushnil(L); lua_next(L, -2); lua_pop(L, 1)) {
@@ -155,6 +155,16 @@ static void check_group(lua_State *L, const char *group)
         }
     }
     lua_pop(L, 1);
+}
+
+/* What a key without a value has: a body in a plane is seen face on. */
+static const char *preset_of(const struct solver_scene *scene, const struct solver_scene_key *key,
+                             const struct scene_key *rule)
+{
+    bool flat = scene->dim < 3;
+    return flat && !strcmp(key->key, "view.direction") ? "{0,0,1}"
+           : flat && !strcmp(key->key, "view.up")      ? "{0,1,0}"
+                                                       : rule->preset;
 }
 
 void scene_read_plain(lua_State *L, struct solver_scene *scene)
@@ -174,11 +184,12 @@ void scene_read_plain(lua_State *L, struct solver_scene *scene)
         scene_lua_push(L, key->key);
         if (lua_isnil(L, -1)) {
             lua_pop(L, 1);
-            if (!rule->preset)
+            const char *preset = preset_of(scene, key, rule);
+            if (!preset)
                 scene_refuse(L, "%s: missing; expected %s (%s)", key->key, key->expects, key->meaning);
-            if (!rule->preset[0])
+            if (!preset[0])
                 continue;
-            scene_push_spelling(L, key->key, rule->preset);
+            scene_push_spelling(L, key->key, preset);
         }
         read_value(L, scene, k);
         lua_pop(L, 1);

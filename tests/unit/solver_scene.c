@@ -70,10 +70,27 @@ static void formula_fails_late(void)
         solver_scene_eval(scene, SOLVER_INITIAL_VELOCITY, (double[3]){1.5, 0.5, 0}, 0.25, value, 2, &error));
     CU_ASSERT_PTR_NOT_NULL(strstr(error.text, ".lua:7: initial.velocity at X = (1.5, 0.5, 0), t = 0.25: did not end"));
     CU_ASSERT_FALSE(solver_scene_eval(scene, SOLVER_INITIAL_VELOCITY, (double[3]){0}, 2, value, 2, &error));
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "expected 2 numbers, got 1 values"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "expected 2 numbers, got 1"));
     CU_ASSERT_TRUE(solver_scene_eval(scene, SOLVER_INITIAL_VELOCITY, (double[3]){1}, 0, value, 2, &error));
     CU_ASSERT_EQUAL(value[1], 12);
     solver_scene_free(scene);
+}
+
+/* A view without directions looks from a corner in space, and face on at a plane. */
+static void default_views(void)
+{
+    static const char view[] = "n = 4\nview = { field = 'pressure', range = {0, 1} }";
+    write_changed("n = 4", view);
+    struct solver_scene *flat = load_good(NULL);
+    CU_ASSERT(flat->view.direction[0] == 0 && flat->view.direction[1] == 0 && flat->view.direction[2] == 1);
+    CU_ASSERT(flat->view.up[0] == 0 && flat->view.up[1] == 1 && flat->view.up[2] == 0);
+    solver_scene_free(flat);
+    const char *const set[] = {"view.direction={1,2,3}"};
+    struct solver_scene *cube = NULL;
+    struct solver_error error = {0};
+    CU_ASSERT_FATAL(solver_scene_load(swinging_cube, set, 1, &cube, &error));
+    CU_ASSERT(cube->view.direction[0] == 1 && cube->view.up[2] == 1);
+    solver_scene_free(cube);
 }
 
 static void overrides(void)
@@ -215,6 +232,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"plain scene and defaults", plain_scene_and_defaults},
         {"swinging cube", swinging_cube_scene},
+        {"default views", default_views},
         {"overrides", overrides},
         {"gates and published", gates_and_published},
         {"formula fails late", formula_fails_late},

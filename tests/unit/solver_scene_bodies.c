@@ -217,7 +217,7 @@ static void bad_round(void)
         {DISC(" }\nfaces = { surface = { kind = 'roller', value = function() return 0, 0 end } }"), 0,
          "faces.surface: 'roller' is a condition on a plane"},
         {DISC(" }\nfaces = { surface = { kind = 'traction', value = function(X) return X end } }"), 0,
-         "faces.surface.value at X = (2, 0, 0), t = 0: expected 2 numbers, got 1 values"},
+         "faces.surface.value at X = (2, 0, 0), t = 0: expected 2 numbers, got 1"},
     };
 #undef DISC
 #undef SOLID

@@ -96,7 +96,7 @@ static void refusals(void)
         {"domain = { shape = 'solid', lower = {0, 0}, upper = {1, 1}, distance = 1 }", 2,
          "domain.distance: expected function(X, Y, Z) returning one number"},
         {"domain = { shape = 'solid', lower = {0, 0}, upper = {1, 1}, distance = function() return 1, 2 end }", 2,
-         "domain.distance at X = (0, 0, 0), t = 0: expected 1 numbers, got 2 values"},
+         "domain.distance at X = (0, 0, 0), t = 0: expected 1 number, got 2"},
         {"domain = { shape = 'solid', lower = {0, 0}, upper = {1, 1}, distance = function() return 0 / 0 end }", 2,
          "expected a number, got NaN"},
         {"domain = { shape = 'solid', lower = {0, 0}, upper = {1, 1}, distance = function(X) return 5 * X - 2 end }", 2,
