@@ -1,6 +1,7 @@
 #include "verify/figures.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define WHERE             "%.300s: figures.%s: "
@@ -83,6 +84,24 @@ static const struct solver_option *find_option(const struct solver_figure *figur
     return NULL;
 }
 
+/* Always false. */
+static bool refuse_argument(const struct solver_scene *scene, const struct solver_figure *figure, const char *name,
+                            const struct solver_option *given, const char *expected, struct solver_error *error)
+{
+    char got[SOLVER_TEXT] = "{";
+    size_t used = 1;
+    if (given == NULL) {
+        return solver_fail(error, SOLVER_BAD_INPUT, WHERE "%s: missing; expected %s", OF(scene, figure), name,
+                           expected);
+    }
+    for (size_t i = 0; i < given->count && used < sizeof got; i++) {
+        used += (size_t)snprintf(got + used, sizeof got - used, "%s%.15g%s", i > 0 ? ", " : "", given->number[i],
+                                 i + 1 == given->count ? "}" : "");
+    }
+    return solver_fail(error, SOLVER_BAD_INPUT, WHERE "%s: expected %s, got %s", OF(scene, figure), name, expected,
+                       given->count > 0 ? got : given->text);
+}
+
 /* The arguments that the scene gives the measure, in its order; refuses those missing, wrong and unknown. */
 static bool read_arguments(const struct solver_scene *scene, const struct solver_figure *figure,
                            const struct verify_measure *measure, struct verify_argument *argument,
@@ -94,8 +113,7 @@ static bool read_arguments(const struct solver_scene *scene, const struct solver
         enum verify_option kind = measure->option[known].kind;
         const struct solver_option *given = find_option(figure, name);
         if (given == NULL || !readers[kind](scene, given, &argument[known])) {
-            return solver_fail(error, SOLVER_BAD_INPUT, WHERE "%s: %s; expected %s", OF(scene, figure), name,
-                               given == NULL ? "missing" : "not as it must be", verify_option_spelling(kind));
+            return refuse_argument(scene, figure, name, given, verify_option_spelling(kind), error);
         }
     }
     for (size_t i = 0; i < figure->option_count; i++) {

@@ -188,11 +188,11 @@ static void refusals(void)
     first_figure()->option_count = 1;
     refused("figures.reflection: over: missing; expected { t [s], X0 [m], X1 [m] }, t being one of the snapshots");
     first_figure()->option[0].number[0] = 3.1e-4;
-    refused("figures.reflection: of: not as it must be; expected { t [s], X0 [m], X1 [m] }");
+    refused("figures.reflection: of: expected { t [s], X0 [m], X1 [m] }");
     first_figure()->option[1].number[2] = -1;
-    refused("figures.reflection: over: not as it must be");
+    refused("figures.reflection: over: expected");
     first_figure()->option[1].count = 2;
-    refused("figures.reflection: over: not as it must be");
+    refused("figures.reflection: over: expected");
     struct solver_figure *figure = first_figure();
     figure->option_count = 3;
     strcpy(figure->option[2].name, "time");
@@ -200,14 +200,14 @@ static void refusals(void)
     figure = first_figure();
     *figure = (struct solver_figure){.name = "first echo", .measure = "period", .option_count = 1};
     figure->option[0] = (struct solver_option){.name = "probe", .text = "tip"};
-    refused("figures.first echo: probe: not as it must be; expected the name of a probe");
+    refused("figures.first echo: probe: expected the name of a probe");
     (void)first_figure();
     scene->dim = 2;
     refused("figures.reflection: the measure \"stress ratio\" is for dim = 1, the scene has dim = 2");
     figure = first_figure();
     *figure = (struct solver_figure){.name = "noise", .measure = "stress ahead", .option_count = 1};
     figure->option[0] = (struct solver_option){.name = "beyond", .number = {-1}, .count = 1};
-    refused("figures.noise: beyond: not as it must be; expected { d }, a length [m]");
+    refused("figures.noise: beyond: expected { d }, a length [m]");
     figure->option[0].number[0] = 0.01;
     CU_ASSERT(verify_figures_check(scene, &truth, &error));
     scene->snapshot_count = 0;
@@ -223,12 +223,12 @@ static void refusals(void)
     scene->hardening.yield = 1;
     CU_ASSERT(verify_figures_check(scene, &truth, &error));
     scene->figure[0].option[0].count = 2;
-    refused("figures.flow: expected: not as it must be; expected { value }, a number");
+    refused("figures.flow: expected: expected { value }, a number");
     strcpy(scene->figure[0].measure, "plastic strain");
     scene->figure[0].option_count = 3;
     scene->figure[0].option[0].count = 1;
     scene->figure[0].option[1] = (struct solver_option){.name = "from", .number = {1, 2}, .count = 2};
-    refused("figures.flow: from: not as it must be; expected { x, y }, as many numbers as dimensions [m]");
+    refused("figures.flow: from: expected { x, y }, as many numbers as dimensions [m]");
 }
 
 /* A probe that is carried along Y and has gone 5e-3 m aside on the way, by 3 and 4 along X and Z. */
@@ -303,7 +303,7 @@ static void distance_and_loss(void)
     CU_ASSERT(level.figure[0].exact == 10 && strcmp(level.figure[0].unit, "m") == 0);
     CU_ASSERT_DOUBLE_EQUAL(level.figure[0].error, 0.5, 1e-15);
     scene->figure[0].option[2].text[0] = 'R';
-    refused("figures.apart: to: not as it must be; expected the name of a probe");
+    refused("figures.apart: to: expected the name of a probe");
 }
 
 /* What symmetry alone says needs no oracle; all else does. */
@@ -318,7 +318,7 @@ static void without_an_oracle(void)
         if (k >= 1 && k <= 3) {
             CU_ASSERT(verify_figures_check(scene, &truth, &error));
         } else {
-            refused("figures.drift: across: not as it must be; expected { k }, the k-th of the axes");
+            refused("figures.drift: across: expected { k }, the k-th of the axes");
         }
     }
     strcpy(scene->figure[0].measure, "period");
