@@ -46,6 +46,9 @@ cli_refuses(no-golden-record "golden update swinging-cube" golden check swinging
 cli_refuses(missing-record "nothing-there.vtkhdf" render nothing-there.vtkhdf)
 cli_refuses(no-such-scalar "its fields are F, H, J, P, displacement, momentum, pressure, sigma" render
             ${CMAKE_SOURCE_DIR}/golden/swinging-cube.vtkhdf -o test-out/none.png --set view.field=Q_xx)
+# Before a run, and so before the folder of its results is looked at, which is no folder.
+cli_refuses(no-such-scalar-in-a-scene "view.field: the record has no scalar" run swinging-cube
+            --set view.field=Q_xx --out ${CMAKE_SOURCE_DIR}/README.md)
 cli_refuses(gate-on-unknown-field "\"P\" needs the scene's key scheme" verify swinging-cube --set scheme=ulsph)
 cli_refuses(no-oracle-no-gates "has no gates" verify rotating-plate --set gates={})
 cli_refuses(beside-nothing "\"beside\" needs the scene's key beside" verify rotating-plate --set beside={})

@@ -17,7 +17,7 @@ static bool make(const struct verify_options *options, struct solver_scene *scen
     char record_path[VERIFY_PATH], picture[VERIFY_PATH];
     struct solver_run *run = NULL;
     struct solver_record *record = NULL;
-    if (!verify_path_join(picture, folder, stem, ".png", error) ||
+    if (!verify_path_join(picture, folder, stem, ".png", error) || !verify_picture_check(scene, error) ||
         !verify_simulate(scene, folder, options->line, NULL, NULL, &run, error)) {
         return false;
     }

@@ -22,8 +22,9 @@ static void print_facts(const struct solver_scene *scene, const struct solver_fa
     if (facts->finest < facts->spacing) {
         (void)snprintf(graded, sizeof graded, " (mean; smallest %.6g m)", facts->finest);
     }
-    (void)printf("  %zu particles, spacing %.6g m%s, %zu pairs, %zu steps to t = %.6g s on %d threads\n",
-                 facts->particles, facts->spacing, graded, facts->pairs, facts->steps, scene->t_end, facts->threads);
+    (void)printf("  %zu particles, spacing %.6g m%s, %zu pairs, %zu steps to t = %.6g s on %d thread%s\n",
+                 facts->particles, facts->spacing, graded, facts->pairs, facts->steps, scene->t_end, facts->threads,
+                 facts->threads == 1 ? "" : "s");
     (void)printf("  set up in %.3f s, ran for %.3f s: %.1f ns per particle-step\n", facts->setup_seconds,
                  facts->seconds, 1e9 * facts->seconds / particle_steps);
     (void)printf("  %.0f bytes per particle, %.0f of them fields of the scheme%s\n", facts->bytes_per_particle,
@@ -100,7 +101,7 @@ static bool open_work(struct work *work, const struct verify_options *options, s
                verify_restart_folder(options, work->folder, error);
     }
     memcpy(work->line, options->line, sizeof work->line);
-    return verify_scene_open(options, 0, &work->scene, error) &&
+    return verify_scene_open(options, 0, &work->scene, error) && verify_picture_check(work->scene, error) &&
            verify_out_folder(options, work->scene->name, work->folder, error);
 }
 

@@ -194,7 +194,7 @@ static bool choose_shown(struct work *work, struct solver_error *error)
 static bool study(struct work *work, bool *passed, struct solver_error *error)
 {
     if (!verify_refuse_n(work->options, verify_by_levels, error) || !open_level(work, 0, error) ||
-        !choose_levels(work, error) || !open_all_levels(work, error) ||
+        !choose_levels(work, error) || !open_all_levels(work, error) || !verify_picture_check(work->scene, error) ||
         !verify_truth_open(work->scene, &work->truth, error) ||
         !verify_beside_open(work->options, work->scene, &work->beside, error)) {
         return false;

@@ -1,5 +1,6 @@
 #include "verify/picture.h"
 
+#include "solver/scheme.h"
 #include "verify/files.h"
 
 #include <math.h>
@@ -78,6 +79,41 @@ static bool read_scalar(const struct solver_record *record, const char *name, do
         scalar[a] = columns == 1 ? value[0] : sqrt(value[0] * value[0] + value[1] * value[1] + value[2] * value[2]);
     }
     return true;
+}
+
+bool verify_picture_check(const struct solver_scene *scene, struct solver_error *error)
+{
+    if (!scene->has_view) {
+        return true;
+    }
+    static double any[1]; /* a record of no particles reads nothing of it */
+    static uint32_t number[1];
+    const struct solver_scheme *scheme = solver_scheme_find(scene->scheme);
+    double *deformation = scheme != NULL && scheme->deformation ? any : NULL;
+    const struct solver_cloud cloud = {
+        .dim = scene->dim, .X = any, .tags = number, .body = scene->shape_count > 0 ? number : NULL};
+    const struct solver_output output = {.cloud = &cloud,
+                                         .V = any,
+                                         .u = any,
+                                         .v = any,
+                                         .p = any,
+                                         .F = deformation,
+                                         .H = deformation,
+                                         .J = any,
+                                         .P = deformation,
+                                         .sigma = any,
+                                         .pressure = any,
+                                         .von_mises = any,
+                                         .plastic_strain = solver_scene_flows(scene) ? any : NULL};
+    struct solver_record *record = NULL;
+    int first = 0, columns = 0;
+    if (!solver_record_make(scene, &output, NULL, "", "", &record, error)) {
+        return false;
+    }
+    bool known = find_scalar(record, scene->view.field, &first, &columns) != NULL ||
+                 refuse_field(record, scene->view.field, error);
+    solver_record_free(record);
+    return known;
 }
 
 static bool place(const struct solver_record *record, double magnify, double *position, struct solver_error *error)

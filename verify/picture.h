@@ -11,6 +11,9 @@
  * moves. Errors name the field that the record lacks. */
 bool verify_picture_draw(const struct solver_record *record, const struct solver_view *view, const char *title,
                          struct render_image **image, struct solver_error *error);
+/* Whether the records of a scene will have the field that its view names: what is wrong is said before a run, not
+ * after it. */
+bool verify_picture_check(const struct solver_scene *scene, struct solver_error *error);
 /* Draws and writes a PNG. */
 bool verify_picture_write(const char *path, const struct solver_record *record, const struct solver_view *view,
                           const char *title, struct solver_error *error);
