@@ -63,15 +63,16 @@ static bool is_unknown(const struct solver_scene *scene, const char *name)
 bool verify_gates_judge(const struct solver_scene *scene, const struct verify_level *finest, struct verify_gates *gates,
                         struct solver_error *why)
 {
-    bool met[SOLVER_GATES] = {false}, any_with_conditions = false;
+    bool met[SOLVER_GATES] = {false}, any_with_conditions = false, some_for_others = false;
     for (size_t i = 0; i < scene->gate_count; i++) {
         if (!holds(scene, i, &met[i], why)) {
             return false;
         }
         any_with_conditions = any_with_conditions || (met[i] && scene->gate[i].conditions > 0);
+        some_for_others = some_for_others || scene->gate[i].conditions > 0;
     }
     gates->count = 0;
-    gates->general = !any_with_conditions;
+    gates->general = some_for_others && !any_with_conditions;
     gates->pass = true;
     for (size_t i = 0; i < scene->gate_count; i++) {
         bool judged = met[i] && !(any_with_conditions && scene->gate[i].conditions == 0);

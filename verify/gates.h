@@ -22,7 +22,7 @@ struct verify_gate {
 struct verify_gates {
     size_t count; /* 0: no rule of the scene holds for this configuration, so nothing was judged */
     struct verify_gate gate[VERIFY_GATES];
-    bool general; /* only rules without conditions hold: nothing was asked of this configuration in particular */
+    bool general; /* only rules without conditions hold, and others are asked for more: nothing is of this one */
     bool pass;    /* at least one gate, and all of them pass */
 };
 

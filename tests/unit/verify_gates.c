@@ -105,7 +105,11 @@ static void without_conditions(void)
     CU_ASSERT_STRING_EQUAL(gates.gate[0].name, "P_abs");
     CU_ASSERT_STRING_EQUAL(gates.gate[0].unit, "Pa");
     CU_ASSERT_TRUE(gates.pass);
-    CU_ASSERT_TRUE(gates.general); /* and the verdict says that this is all */
+    CU_ASSERT_TRUE(gates.general);   /* and the verdict says that this is all */
+    scene->gate[0] = scene->gate[2]; /* nothing is asked of other configurations either */
+    scene->gate_count = 1;
+    CU_ASSERT_TRUE_FATAL(judge());
+    CU_ASSERT_FALSE(gates.general);
 }
 
 static void all_conditions_count(void)
