@@ -101,7 +101,7 @@ bool verify_folder_make(const char *path, struct solver_error *error)
     if (stat(path, &status) != 0 || !S_ISDIR(status.st_mode)) {
         return solver_fail(error, SOLVER_IO, "%s: is not a folder", path);
     }
-    return true;
+    return access(path, W_OK | X_OK) == 0 || failed(error, "write into the folder", path, errno);
 }
 
 bool verify_file_same(const char *one, const char *other)
