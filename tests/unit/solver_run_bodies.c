@@ -95,12 +95,37 @@ static void meeting(void)
     finish(&again);
 }
 
+/* A body's velocity is that of its centre of mass: of two halves of which one is three times as dense, and moves. */
+static void centre_of_mass(void)
+{
+    static const char composite[] = "title, dim, n, t_end = 'halves', 1, 4, 1\n"
+                                    "lattice, domain = 'centres', { lower = {-1}, upper = {1} }\n"
+                                    "material = { model = 'linear-elastic', E = 1, nu = 0, rho = 1,\n"
+                                    "    at = function(X) return 1, 0, X < 0 and 3 or 1 end }\n"
+                                    "scheme, support, integrator, cfl, stencil = 'ulsph', 2.4, 'tvd-rk2', 0.5, 'sph'\n"
+                                    "initial = { velocity = function(X) return X < 0 and 1 or 0 end }\n";
+    struct sample sample = {.run = NULL};
+    char path[SCRATCH];
+    scratch_text(path, "%s", composite);
+    bool ready = solver_scene_load(path, NULL, 0, &sample.scene, &sample.error) &&
+                 solver_run_create(sample.scene, &sample.run, &sample.error);
+    unlink(path);
+    if (!ready) {
+        printf("\n    %s", sample.error.text);
+    }
+    CU_ASSERT_FATAL(ready);
+    advance_to(&sample, 1e-3);
+    CU_ASSERT_DOUBLE_EQUAL(solver_run_history(sample.run)->body_velocity[0][0], 0.75, 1e-12);
+    finish(&sample);
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
         {"strangers", strangers},
         {"recorded", recorded},
         {"bodies that meet", meeting},
+        {"centre of mass", centre_of_mass},
     };
     return unit_main("solver run of bodies", tests, sizeof tests / sizeof *tests);
 }
