@@ -76,7 +76,7 @@ X("material.nu", NUMBER, AT(nu), -1 + DBL_EPSILON / 2, 0.5, 0, "", NEEDED, "numb
 X("material.rho", NUMBER, AT(rho), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [kg/m^3]",                          \
   "density in the reference configuration")                                                                            \
 X("material.at", FORMULA, SOLVER_MATERIAL_AT, 0, 0, 0, "", OPTIONAL, "function(X, Y, Z) returning E, nu, rho",            \
-  "constants of a composite body, in place of material.E, nu and rho")                                                 \
+  "constants of a composite body; they count in place of material.E, nu and rho, which are given all the same")        \
 X("material.yield_stress", NUMBER, AT(hardening.yield), 0, DBL_MAX, 0, "", "0", "number >= 0 [Pa]",                      \
   "yield stress (von Mises) of the virgin material; 0: it is elastic")                                                 \
 X("material.law", INDEX, AT(hardening.law), 0, 0, 0, "linear saturation power", "linear",                              \
