@@ -1,5 +1,7 @@
 #include "verify/indicators.h"
 
+#include "verify/norms.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,11 +58,11 @@ void verify_indicators_history(const struct solver_history *history, double mass
         for (int axis = 0; axis < 3; axis++) {
             both[axis] = history->mirrored[axis] ? first->linear[axis] : now->linear[axis] + now->wall[axis];
         }
-        linear = fmax(linear, distance(both, first->linear));
-        angular = fmax(angular, distance(now->angular, first->angular));
-        kinetic = fmax(kinetic, now->kinetic);
-        supply = fmax(supply, before + fabs(work));
-        gain = fmax(gain, now->kinetic + now->strain - before - work);
+        linear = verify_larger(linear, distance(both, first->linear));
+        angular = verify_larger(angular, distance(now->angular, first->angular));
+        kinetic = verify_larger(kinetic, now->kinetic);
+        supply = verify_larger(supply, before + fabs(work));
+        gain = verify_larger(gain, now->kinetic + now->strain - before - work);
     }
     double scale = sqrt(2 * mass * kinetic);
     value[VERIFY_LINEAR_MOMENTUM] = scale > 0 ? linear / scale : NAN;

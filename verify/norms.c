@@ -54,8 +54,7 @@ const char verify_error_names[] =
     "_l1, all but those of probes also with snapshots_ before "
     "it, probes_nrmse, probes_y_nrmse, beside and beside_abs";
 
-/* Unlike fmax, keeps a NaN, and does not compare with it; a loop that a compiler turns into vectors would. */
-static __attribute__((noinline)) double larger(double a, double b)
+__attribute__((noinline)) double verify_larger(double a, double b)
 {
     if (isnan(a) || isnan(b)) {
         return isnan(a) ? a : b;
@@ -79,8 +78,8 @@ struct verify_norms verify_norms_field(size_t count, size_t width, const double 
         exact_sum += V[a] * size;
         error_l1 += V[a] * sqrt(error);
         exact_l1 += V[a] * sqrt(size);
-        error_max = larger(error_max, error);
-        exact_max = larger(exact_max, size);
+        error_max = verify_larger(error_max, error);
+        exact_max = verify_larger(exact_max, size);
     }
     return (struct verify_norms){
         .relative_l2 = isgreater(exact_sum, 0) ? sqrt(error_sum / exact_sum) : NAN,
@@ -359,6 +358,6 @@ void verify_norms_worst(size_t snapshots_before, const double of_snapshot[VERIFY
 {
     double *worst = error + VERIFY_SNAPSHOT_ERRORS;
     for (size_t i = 0; i < VERIFY_STATE_ERRORS; i++) {
-        worst[i] = snapshots_before == 0 ? of_snapshot[i] : larger(worst[i], of_snapshot[i]);
+        worst[i] = snapshots_before == 0 ? of_snapshot[i] : verify_larger(worst[i], of_snapshot[i]);
     }
 }

@@ -23,6 +23,9 @@ struct verify_norms {
     double relative_l2, absolute_l2, relative_max, absolute_max, relative_l1;
 };
 
+/* Unlike fmax, keeps a NaN, and does not compare with it; a loop that a compiler turns into vectors would. */
+double verify_larger(double a, double b);
+
 /* Norms of a field: `count` rows of `width` components, V one weight per row. */
 struct verify_norms verify_norms_field(size_t count, size_t width, const double *V, const double *computed,
                                        const double *exact);

@@ -237,6 +237,19 @@ static void drifts(void)
     CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_ENERGY_GAIN], 4.0 / 32, 1e-15);
 }
 
+/* What is no number at any time keeps no momentum and no energy. */
+static void drifts_that_are_none(void)
+{
+    struct solver_totals totals[3] = {{.time = 0, .kinetic = 1}, {.time = 1, .kinetic = 1}, {.time = 2, .kinetic = 1}};
+    const struct solver_history history = {.count = 3, .totals = totals};
+    unit_untrapped();
+    totals[1].linear[1] = totals[1].angular[2] = totals[1].strain = NAN;
+    verify_indicators_history(&history, 2, 3, value);
+    CU_ASSERT(isnan(value[VERIFY_LINEAR_MOMENTUM]));
+    CU_ASSERT(isnan(value[VERIFY_ANGULAR_MOMENTUM]));
+    CU_ASSERT(isnan(value[VERIFY_ENERGY_GAIN]));
+}
+
 static void at_rest(void)
 {
     struct solver_totals totals[2] = {{.time = 0}, {.time = 1}};
@@ -301,6 +314,7 @@ int main(void)
         {"bodies apart", bodies_apart},
         {"positions that are none", positions_that_are_none},
         {"drifts", drifts},
+        {"drifts that are none", drifts_that_are_none},
         {"at rest", at_rest},
         {"faces", faces},
         {"names", names},
