@@ -175,6 +175,8 @@ assay_unit_mutant(checkpoint-evolved-alone solver_checkpoint "every part that ha
 assay_unit_mutant(die-hollow solver_die "distance and normal")
 assay_unit_mutant(die-one-side solver_die "sharp corners")
 assay_unit_mutant(jst-fading solver_jst_plastic "each particle has the printed value")
+assay_unit_mutant(body-velocity-by-volume solver_run_bodies "centre of mass")
+assay_unit_mutant(energy-check-blunt solver_run_breakdown "energy gained")
 assay_unit_mutant(wall-energy solver_balance "closes")
 assay_unit_mutant(balance-jacobian-sign solver_balance "closes")
 assay_unit_mutant(symmetry-tensor-sign solver_symmetry "as the whole")

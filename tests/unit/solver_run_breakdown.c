@@ -148,6 +148,25 @@ static void test_run_to(void)
     finish(&sample);
 }
 
+/* A linear body that is a little unstable has no J <= 0 and no number that overflows for long: its energy stops it,
+ * soon after there is ten times of what there was. */
+static void test_energy_gained(void)
+{
+    struct sample sample =
+        start(smooth_motion, "dim=1 cfl=1.8 material.model=linear-elastic evolved=pF history=100000");
+    CU_ASSERT_FALSE_FATAL(solver_run_to(sample.run, 1000.0, NULL, NULL, &sample.error));
+    CU_ASSERT_EQUAL(sample.error.code, SOLVER_BROKE_DOWN);
+    CU_ASSERT_PTR_NOT_NULL(strstr(sample.error.text, "were ever put in: the run is unstable. Try"));
+    const struct solver_history *history = solver_run_history(sample.run);
+    const struct solver_totals *row = history->totals;
+    size_t last = history->count - 1;
+    double first = row[0].kinetic + row[0].strain;
+    CU_ASSERT_FATAL(last > 1);
+    CU_ASSERT(row[last].kinetic + row[last].strain > 10.0 * first);
+    CU_ASSERT(row[last - 1].kinetic + row[last - 1].strain <= 10.0 * first);
+    finish(&sample);
+}
+
 /* The field that is broken is the one named. */
 static void test_field_is_named(void)
 {
@@ -236,6 +255,7 @@ int main(void)
         {"unstable until not finite", test_unstable},
         {"neighbours that move", test_moving_neighbours},
         {"on the way to t_end", test_run_to},
+        {"energy gained", test_energy_gained},
         {"a time step that has collapsed", test_steps_collapse},
         {"the broken field is the one named", test_field_is_named},
         {"a formula that fails on the way", test_formula_fails},
