@@ -19,6 +19,7 @@ static void by_hand(void)
     check(norms.absolute_l2, sqrt(28.0 / 4));
     check(norms.relative_max, 0.5);
     check(norms.absolute_max, 5);
+    check(norms.relative_l1, (5.0 + 3 * 1) / (10 + 3 * 2));
 }
 
 static void weights_matter(void)
@@ -27,6 +28,8 @@ static void weights_matter(void)
     check(verify_norms_field(2, 1, even, computed, exact).relative_l2, sqrt(0.5));
     check(verify_norms_field(2, 1, uneven, computed, exact).relative_l2, sqrt(0.9));
     check(verify_norms_field(2, 1, uneven, computed, exact).relative_max, 1);
+    check(verify_norms_field(2, 1, even, computed, exact).relative_l1, 0.5);
+    check(verify_norms_field(2, 1, uneven, computed, exact).relative_l1, 0.9);
 }
 
 static void no_error(void)
@@ -34,6 +37,7 @@ static void no_error(void)
     const double V[] = {1, 2}, exact[] = {5, -7};
     struct verify_norms norms = verify_norms_field(2, 1, V, exact, exact);
     CU_ASSERT(norms.relative_l2 == 0 && norms.absolute_l2 == 0 && norms.relative_max == 0 && norms.absolute_max == 0);
+    CU_ASSERT(norms.relative_l1 == 0);
 }
 
 static void exact_field_is_zero(void)
@@ -41,7 +45,7 @@ static void exact_field_is_zero(void)
     const double V[] = {1, 1}, zero[] = {0, 0}, computed[] = {3, 4};
     struct verify_norms norms = verify_norms_field(2, 1, V, computed, zero);
     CU_ASSERT(isnan(norms.relative_l2));
-    CU_ASSERT(isnan(norms.relative_max));
+    CU_ASSERT(isnan(norms.relative_max) && isnan(norms.relative_l1));
     check(norms.absolute_l2, sqrt(12.5));
     check(norms.absolute_max, 4);
     CU_ASSERT(isnan(verify_norms_field(2, 1, V, zero, zero).relative_l2));
@@ -56,9 +60,9 @@ static void nan_shows(void)
         spoiled[at] = NAN;
         struct verify_norms norms = verify_norms_field(3, 1, V, spoiled, exact);
         CU_ASSERT(isnan(norms.relative_l2) && isnan(norms.absolute_l2));
-        CU_ASSERT(isnan(norms.relative_max) && isnan(norms.absolute_max));
+        CU_ASSERT(isnan(norms.relative_max) && isnan(norms.absolute_max) && isnan(norms.relative_l1));
         norms = verify_norms_field(3, 1, V, exact, spoiled);
-        CU_ASSERT(isnan(norms.relative_l2) && isnan(norms.relative_max));
+        CU_ASSERT(isnan(norms.relative_l2) && isnan(norms.relative_max) && isnan(norms.relative_l1));
     }
     const double bad_V[] = {1, NAN, 1}, computed[] = {1, 2, 4};
     CU_ASSERT(isnan(verify_norms_field(3, 1, bad_V, computed, exact).relative_l2));
