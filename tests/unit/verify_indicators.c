@@ -104,6 +104,9 @@ static void checkerboards_fire(void)
             }
             measure(&now, 0.05);
             CU_ASSERT(value[VERIFY_CHECKERBOARD] > 0.6);
+            if (!disordered) { /* of 2, 8 or 18 neighbours 2, 4 or 6 are of the other sign */
+                CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_CHECKERBOARD], 2.0 / dim, 1e-12);
+            }
         }
     }
 }
