@@ -129,6 +129,9 @@ assay_test(mismatch-amplitude LABELS gate mustfail COMMAND ${mismatch} test-out/
 assay_test(mismatch-modulus LABELS gate mustfail COMMAND ${mismatch} test-out/modulus oracle.material.E=17.17e6)
 assay_test(mismatch-density LABELS gate mustfail COMMAND ${mismatch} test-out/density oracle.rho=1111)
 
+assay_test(readme-scene LABELS gate COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/readme_scene.sh ${assay}
+  ${CMAKE_SOURCE_DIR}/README.md test-out/readme-scene)
+
 # With one level no order was observed, and gates on orders cannot pass.
 assay_test(one-level LABELS gate mustfail COMMAND ${cli} 1 "nothing was measured"
   ${assay} verify swinging-cube --levels 8 --out test-out/one-level)

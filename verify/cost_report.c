@@ -36,10 +36,11 @@ static void print_scene(const struct verify_cost *cost)
     if (verify_has_stencil(scene)) {
         (void)printf(", stencil %s, %s", scene->stencil, evolved[scene->evolved]);
     }
-    (void)printf(", material %s, %dD, %s\n  %zu particles, %.1f neighbours each, %d threads; a step has %d right-hand "
+    (void)printf(", material %s, %dD, %s\n  %zu particles, %.1f neighbours each, %d thread%s; a step has %d right-hand "
                  "sides of %d loops over pairs each\n",
                  scene->material_model, scene->dim, scene->integrator, whole->facts.particles,
-                 (double)whole->facts.pairs / particles, whole->facts.threads, whole->stages, loops(whole));
+                 (double)whole->facts.pairs / particles, whole->facts.threads, whole->facts.threads == 1 ? "" : "s",
+                 whole->stages, loops(whole));
 }
 
 static void print_arrays(const struct verify_cost_case *of)

@@ -96,7 +96,7 @@ void verify_html_quantities(FILE *file, const struct verify_study *study)
     char residual[VERIFY_RESIDUAL];
     (void)fprintf(file,
                   "</table>\n<p class=\"note\">%zu pairs, %.0f bytes per particle (%.0f of them fields of the scheme), "
-                  "set up in %.2f s, %d threads%s.</p>\n",
+                  "set up in %.2f s, %d thread%s%s.</p>\n",
                   facts->pairs, facts->bytes_per_particle, facts->state_bytes, facts->setup_seconds, facts->threads,
-                  verify_residual(residual, facts));
+                  facts->threads == 1 ? "" : "s", verify_residual(residual, facts));
 }

@@ -194,9 +194,10 @@ static void print_facts(FILE *file, const struct verify_study *study)
     char residual[VERIFY_RESIDUAL];
     (void)fprintf(file,
                   "\nfinest level: %zu pairs (%.1f per particle), %.0f bytes per particle (%.0f of them fields of the "
-                  "scheme),\n  set up in %.2f s, %d threads%s\n",
+                  "scheme),\n  set up in %.2f s, %d thread%s%s\n",
                   facts->pairs, (double)facts->pairs / (double)facts->particles, facts->bytes_per_particle,
-                  facts->state_bytes, facts->setup_seconds, facts->threads, verify_residual(residual, facts));
+                  facts->state_bytes, facts->setup_seconds, facts->threads, facts->threads == 1 ? "" : "s",
+                  verify_residual(residual, facts));
     if (study->truth->none) {
         (void)fprintf(file, "  energy at the end: kinetic %.6g J, strain %.6g J\n", study->last.kinetic,
                       study->last.strain);
