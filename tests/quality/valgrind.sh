@@ -5,6 +5,7 @@ set -euo pipefail
 # What is left out, and why; memcheck slows programs down by about 100, and the sanitizers see these too.
 declare -A skipped=(
   [test_oracles_conformance]="eigenproblems as test_oracles_cantilever solves one, and what each oracle's own program calls: a minute"
+  [test_oracles_self_check]="the self-checks of test_oracles_conformance: minutes"
   [test_oracles_outside]="the eigenproblems of both cantilevers, to ask where their bodies are: minutes"
   [test_oracles_mutations_round]="the self-checks of test_oracles_breathing and test_oracles_tube, for each fault: 30 s"
   [test_oracles_mutations_every]="the self-check of test_oracles_conformance, again for each fault: minutes"
