@@ -218,9 +218,39 @@ static void test_memory_of_integrators(void)
     }
 }
 
+/* The last row of a probe is the displacement and velocity of the particle there, bit for bit. */
+static void test_probes(void)
+{
+    static const char probed[] = "probes = { { name = 'corner', X = each(0) }, { name = 'centre', X = each(0.5) } }\n"
+                                 "initial = { velocity = function(X, Y) return first(0.01 * X, 0.02 * Y, 0.03) end }\n";
+    struct sample sample = start(probed, "dim=2 t_end=0.05");
+    advance_to(&sample, 0.05);
+    struct solver_output output = output_of(&sample);
+    const struct solver_history *history = solver_run_history(sample.run);
+    CU_ASSERT_EQUAL_FATAL(history->probe_count, 2);
+    CU_ASSERT_EQUAL_FATAL(history->totals[history->count - 1].time, output.time);
+    size_t found = 0;
+    for (size_t k = 0; k < 2; k++) {
+        const double *u = history->probe_u + 3 * ((history->count - 1) * 2 + k);
+        const double *v = history->probe_v + 3 * ((history->count - 1) * 2 + k);
+        for (size_t a = 0; a < output.cloud->count; a++) {
+            const double *X = output.cloud->X + 2 * a;
+            if (X[0] == 0.5 * (double)k && X[1] == 0.5 * (double)k) {
+                found++;
+                CU_ASSERT(u[0] == output.u[2 * a] && u[1] == output.u[2 * a + 1] && u[2] == 0.0);
+                CU_ASSERT(v[0] == output.v[2 * a] && v[1] == output.v[2 * a + 1] && v[2] == 0.0);
+                CU_ASSERT(k == 0 || (u[1] != 0.0 && v[1] != 0.0));
+            }
+        }
+    }
+    CU_ASSERT_EQUAL(found, 2);
+    finish(&sample);
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
+        {"probes", test_probes},
         {"stress, Jacobian and cofactor of a known deformation", test_measures},
         {"F of a displacement", test_discrete_F},
         {"momenta of a body that flies", test_momenta},
