@@ -143,6 +143,8 @@ assay_extreme_mutant(step-beyond-cfl 1 1 cfl "upwind sbp2 pF rk4, 1D")
 assay_extreme_mutant(interface-mean-slope 1 1 contrast "upwind sbp2")
 assay_extreme_mutant(interface-crossed 1 1 contrast "upwind sbp4")
 
+assay_unit_mutant(sbp4-short-weight solver_stencil "every builder in 1D")
+assay_unit_mutant(sbp4-interior solver_stencil "every builder in 1D")
 assay_unit_mutant(step-of-the-mean-spacing solver_perturbed "steps are short enough")
 assay_unit_mutant(ulsph-crossed solver_interfaces "kernels end there")
 assay_unit_mutant(ulsph-impedance-of-the-heavier solver_run_composite "the step where kernels cross")
