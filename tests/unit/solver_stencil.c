@@ -151,9 +151,9 @@ static void conform(const struct solver_stencil_builder *builder, int dim, int e
     solver_cloud_free(cloud);
 }
 
-/* Edges short and long, the latter with room for the widest boundary closure; in 1D also such that either closure of sbp4
- * leaves rows of the interior between its ends. In 3D builders for any cloud, which may take long to set up, get a short
- * one only: memcheck runs this too. */
+/* Edges short and long, the latter with room for the widest boundary closure; in 1D also such that either closure of
+ * sbp4 leaves rows of the interior between its ends. In 3D builders for any cloud, which may take long to set up, get a
+ * short one only: memcheck runs this too. */
 static void conform_all(int dim)
 {
     size_t members = 0;
