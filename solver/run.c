@@ -123,8 +123,14 @@ static bool initial_state(struct solver_run *run, struct solver_error *error)
         !solver_faces_constrain(&run->faces, &run->body, 0.0, solver_state_v(state), error)) {
         return false;
     }
+    if (run->cloud->symmetry != NULL) {
+        solver_symmetry_reflect(run->cloud, state);
+    }
+    if (!solver_run_check(run, error)) { /* first: what is turned inside out need not have a stress */
+        return false;
+    }
     solver_run_refresh(run);
-    return solver_wall_check(&run->wall, &run->body, state, error) && solver_run_check(run, error);
+    return solver_wall_check(&run->wall, &run->body, state, error);
 }
 
 static void find_probes(struct solver_run *run)

@@ -99,9 +99,10 @@ X("evolved", INDEX, AT(evolved), 0, 0, 0, "pF pFJ pFHJ", "pFHJ", "one of pF, pFJ
 X("stencil", WORD, AT(stencil), 0, 0, 0, "sph closed sbp2 sbp4", "sbp4", "one of sph, closed, sbp2, sbp4",             \
   "how discrete gradients are built")                                                                                  \
 X("support", NUMBER, AT(support), 1, 4, 0, "", "2", "number in [1, 4]", "support radius / spacing")                    \
-X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares none", "stencil",                        \
+X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares none", OPTIONAL,                         \
   "one of stencil, least-squares, none",                                                                                \
-  "slopes of the linear reconstruction at the Riemann states, and of what jst corrects its Laplacian by")              \
+  "slopes of the linear reconstruction at the Riemann states, and of what jst corrects its Laplacian by; default: "    \
+  "stencil, but for upwind with closed between particles that perturb moved least-squares")                            \
 X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \
   "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
 X("angular_momentum", WORD, AT(angular_momentum), 0, 0, 0, "free projected", "free", "one of free, projected",           \

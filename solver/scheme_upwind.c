@@ -50,6 +50,7 @@ void solver_upwind_destroy(void *of)
     struct solver_upwind_system *system = of;
     solver_pressure_free(system->pressure);
     solver_stencil_free(system->stencil);
+    free(system->paced);
     free(system);
 }
 
@@ -89,12 +90,15 @@ bool solver_upwind_create(const struct solver_body *body, size_t size, bool alig
     system->body = body;
     system->size = size;
     choose_terms(system, model->in[scene->dim - 1]);
-    if (!make_stencil(system, builder, align, error)) {
+    if (!make_stencil(system, builder, align, error) ||
+        !solver_upwind_pace(system->stencil, body, &system->paced, error)) {
         solver_upwind_destroy(system);
         return false;
     }
     bind_stencil(system);
-    system->meeting = solver_upwind_step_share(system->stencil, body);
+    struct solver_body counted = *body;
+    counted.constants = system->paced != NULL ? system->paced : body->constants;
+    system->meeting = solver_upwind_step_share(system->stencil, &counted);
     *out = system;
     return true;
 }
@@ -140,6 +144,8 @@ void solver_upwind_arrays(const void *of, struct solver_cost_arrays *arrays)
     const struct solver_upwind_system *system = of;
     solver_stencil_arrays(system->stencil, arrays);
     solver_cost_array(arrays, "scheme", "itself", system, 1, system->size);
+    solver_cost_array(arrays, "scheme", "constants that steps go by", system->paced, system->body->cloud->count,
+                      sizeof *system->paced);
     solver_pressure_arrays(system->pressure, arrays);
 }
 
@@ -392,9 +398,10 @@ double solver_upwind_fastest(const void *of, size_t begin, size_t end)
 {
     const struct solver_upwind_system *system = of;
     const struct solver_upwind *work = &system->work;
+    const struct solver_material_constants *constants = system->paced != NULL ? system->paced : work->constants;
     return work->flown != NULL
-               ? work->material->flow->fastest(work->constants, work->stride, begin, end, work->F, work->flown)
-               : work->material->fastest(work->constants, work->stride, begin, end, work->F);
+               ? work->material->flow->fastest(constants, work->stride, begin, end, work->F, work->flown)
+               : work->material->fastest(constants, work->stride, begin, end, work->F);
 }
 
 /* The step that the CFL number allows (eq. 41), by the smallest spacing, less where materials meet or particles crowd.

@@ -25,6 +25,8 @@ struct solver_upwind_system {
     void (*rates)(const void *system, const struct solver_upwind *work, size_t begin, size_t end);
     /* The operations of both, in place of those of Riemann's dissipation and of the rates. */
     void (*terms)(const void *system, struct solver_cost_terms *terms);
+    struct solver_material_constants
+        *paced;     /* [count] that the step goes by (upwind_step.h); NULL: those of the body */
     double meeting; /* by how much what couples where materials meet, or particles crowd, is faster, or 1 */
     size_t size;    /* of the struct */
 };

@@ -219,14 +219,17 @@ static double fastest(const void *of, size_t begin, size_t end)
 {
     const struct system *system = of;
     const struct solver_upwind_single *work = &system->work;
+    const struct solver_material_constants *paced = system->base.paced;
+    const struct solver_material_constants *constants = paced != NULL ? paced : work->constants;
     double speed = 0.0;
     if (work->frozen) { /* whatever F is */
-        return work->material->fastest(work->constants, work->stride, begin, end, NULL);
+        return work->material->fastest(constants, work->stride, begin, end, NULL);
     }
     for (size_t first = begin; first < end; first += WINDOW) {
         struct window window;
         open_window(system, first, end, &window);
-        speed = fmax(speed, work->material->fastest(window.work.constants, work->stride, 0, window.count, window.F));
+        speed = fmax(
+            speed, work->material->fastest(constants + first * work->stride, work->stride, 0, window.count, window.F));
     }
     return speed;
 }

@@ -196,6 +196,7 @@ void solver_stencil_free(struct solver_stencil *stencil)
     free(stencil->least_squares);
     free(stencil->V);
     free(stencil->own);
+    free(stencil->fine);
     free(stencil->face_point);
     free(stencil);
 }

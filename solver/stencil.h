@@ -19,6 +19,8 @@ struct solver_stencil {
     size_t count, pairs;
     double spacing; /* [m] */
     double finest;  /* [m] of a step by a CFL number: the spacing where it is smallest */
+    double *fine; /* [count] [m] the same of each particle; NULL but on a graded lattice of a composite body, until the
+                     scheme has taken it */
     struct solver_graph graph;
     double *pair;     /* [records][dim + 1]: C_ab, then the face measure A_ab of the upwind dissipation,
                              max(0, (C_ab - C_ba)/2 . N_ab) unless the builder knows better; one record, so that a

@@ -318,6 +318,18 @@ static double measure(const struct solver_cloud *cloud, const struct widths *wid
     return product;
 }
 
+/* What a step by a CFL number goes by at particle a [m]. */
+static double fine(const struct solver_cloud *cloud, const struct line_operator *line, const struct widths *widths,
+                   size_t a)
+{
+    double least = INFINITY;
+    for (size_t axis = 0; axis < (size_t)cloud->dim; axis++) {
+        uint32_t i = cloud->site[a * (size_t)cloud->dim + axis];
+        least = fmin(least, widths->axis[axis][i] / weight(cloud, line, axis, i));
+    }
+    return least;
+}
+
 static bool check(const struct solver_cloud *cloud, const struct line_operator *line, struct solver_error *error)
 {
     size_t dim = (size_t)cloud->dim;
@@ -380,6 +392,12 @@ static bool build(const struct solver_cloud *cloud, const struct line_operator *
     graph->row_room = ok ? cloud->count + 1 : 0;
     graph->neighbour_room = ok ? graph->row[cloud->count] : 0;
     stencil->finest = finest;
+    bool composite = cloud->interface != NULL;
+    ok = ok && (!composite || !solver_cloud_graded(cloud) ||
+                solver_alloc((void **)&stencil->fine, cloud->count, sizeof *stencil->fine, "spacings", error));
+    for (size_t a = 0; ok && stencil->fine != NULL && a < cloud->count; a++) {
+        stencil->fine[a] = fine(cloud, line, &widths, a);
+    }
     for (size_t a = 0; ok && a < cloud->count; a++) {
         size_t found = list_pairs(cloud, line, particle_at, a, pairs);
         stencil->V[a] = measure(cloud, &widths, a, 3);

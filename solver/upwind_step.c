@@ -2,8 +2,10 @@
 #include "solver/upwind_step.h"
 
 #include "solver/meeting.h"
+#include "solver/memory.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* Of k = sum_b (lambda + 2 mu)_b |C_ab|^2 / 4 V_b. */
 static double meeting_weight(const void *context, size_t a, size_t ab)
@@ -43,6 +45,42 @@ static double crowding_of(const struct solver_stencil *stencil, const struct sol
         most = fmax(most, area * cloud->spacing / (2.0 * (double)dim * stencil->V[a]));
     }
     return most;
+}
+
+/* With it no pair has a faster wave over a smaller spacing than either of its particles is counted with: the operator's
+ * norm is at most that of its largest row, and a row knows neighbours alone. */
+static double finest_near(const struct solver_stencil *stencil, size_t a)
+{
+    double least = stencil->fine[a];
+    for (size_t ab = stencil->graph.row[a]; ab < stencil->graph.row[a + 1]; ab++) {
+        least = fmin(least, stencil->fine[stencil->graph.neighbour[ab]]);
+    }
+    return least;
+}
+
+bool solver_upwind_pace(struct solver_stencil *stencil, const struct solver_body *body,
+                        struct solver_material_constants **paced, struct solver_error *error)
+{
+    size_t count = stencil->count;
+    if (stencil->fine == NULL) {
+        return true;
+    }
+    if (!solver_alloc((void **)paced, count, sizeof **paced, "constants that steps go by", error)) {
+        return false;
+    }
+    for (size_t a = 0; a < count; a++) {
+        struct solver_material_constants *of_a = *paced + a;
+        double times = finest_near(stencil, a) / stencil->finest;
+        *of_a = body->constants[a * body->stride];
+        of_a->rho *= times * times;
+        of_a->cp /= times;
+        of_a->cs /= times;
+        of_a->zp *= times;
+        of_a->zs *= times;
+    }
+    free(stencil->fine);
+    stencil->fine = NULL;
+    return true;
 }
 
 double solver_upwind_step_share(const struct solver_stencil *stencil, const struct solver_body *body)

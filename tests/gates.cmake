@@ -31,14 +31,15 @@ study_gate(closed LABELS gate
   BOUNDS "gate p <= 7.5e-4" "gate P <= 1.4e-3" "gate rate p >= 1.9" "gate rate P >= 1.8"
   WORDS --set stencil=closed --set support=2.0 ${rk2})
 
-# Measured 1.035e-3, 1.963e-3, 1.98, 1.73; the bounds on the errors are these and 5 %.
+# With least-squares slopes, the default there. Measured 1.128e-3, 2.409e-3, 2.15, 1.85; the bounds on the errors are these
+# and 5 %.
 study_gate(closed-perturbed LABELS gate
-  BOUNDS "p <= 1.09e-3" "P <= 2.06e-3" "gate rate p >= 1.5" "gate rate P >= 1.3"
+  BOUNDS "p <= 1.185e-3" "P <= 2.53e-3" "gate rate p >= 1.5" "gate rate P >= 1.3"
   WORDS --set stencil=closed --set support=2.0 --set perturb=0.15 ${rk2})
 
 # The same with pair vectors in single precision: what they are rounded by is far below these errors.
 study_gate(closed-perturbed-mixed LABELS gate slow
-  BOUNDS "p <= 1.09e-3" "P <= 2.06e-3" "gate rate p >= 1.5" "gate rate P >= 1.3"
+  BOUNDS "p <= 1.185e-3" "P <= 2.53e-3" "gate rate p >= 1.5" "gate rate P >= 1.3"
   WORDS --set stencil=closed --set support=2.0 --set perturb=0.15 --set precision=mixed ${rk2})
 # The default. Measured 1.77e-5, 1.41e-5, 3.52, 3.71.
 study_gate(sbp4 LABELS gate

@@ -114,12 +114,13 @@ static void run_family(struct suite *suite, size_t first, size_t last)
     (void)fflush(stdout);
 }
 
-/* Leaves the families whose heading holds the text. */
+/* Leaves the families whose heading holds the text, or the studies that claim an order. */
 static bool choose(struct suite *suite, const char *text, struct solver_error *error)
 {
+    bool claims = strcmp(text, "claims") == 0;
     size_t kept = 0;
     for (size_t i = 0; i < suite->count; i++) {
-        if (strstr(suite->cases[i].family, text) != NULL) {
+        if (claims ? verify_mms_claims(&suite->cases[i]) : strstr(suite->cases[i].family, text) != NULL) {
             suite->cases[kept++] = suite->cases[i];
         }
     }
@@ -131,8 +132,11 @@ static bool choose(struct suite *suite, const char *text, struct solver_error *e
                                          suite->cases[i].family);
             }
         }
-        return solver_fail(error, SOLVER_BAD_INPUT,
-                           "verify mms: no family of studies is called \"%.64s\"; there are %s", text, families);
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "verify mms: no family of studies is called \"%.64s\"; there are %s, and claims, those of all "
+            "families that claim an order",
+            text, families);
     }
     suite->count = kept;
     return true;

@@ -60,7 +60,7 @@ static const struct verify_command commands[] = {
          "  assay verify swinging-cube --set oracle.U0=5.05e-4   the oracle is told something else: gates fail\n\n"
          "SCENE may be mms: manufactured solutions, run for every scheme, stencil, evolved set, material, integrator\n"
          "and kind of boundary data, and the orders that they achieve in one table; mms TEXT runs those whose\n"
-         "heading holds the text, as in mms \"in time\".\n\n"
+         "heading holds the text, as in mms \"in time\"; mms claims those that claim an order.\n\n"
          "Exit code: 0 all gates pass, or none holds for the configuration, which is then said; 1 a gate or the\n"
          "oracle's self-check fails; 2 the command line, the scene or a file is wrong; 3 the run broke down.",
      .takes = VERIFY_TAKES_SET | VERIFY_TAKES_LEVELS | VERIFY_TAKES_JSON | VERIFY_TAKES_OUT | VERIFY_TAKES_MUTATIONS,

@@ -53,8 +53,11 @@ static bool within_bounds(const struct solver_record *stored, struct solver_reco
     return pass;
 }
 
+/* The first is within the bounds by little, 0.99 of them, and not for every cloud: others of its kind are 1.3 times the
+ * bounds apart, and one on a lattice 1.7 times. Particles at edges and corners have an eighth of the volume, and noise
+ * of the same energy is larger there, which the bounds do not know. */
 static const char *const linear[] = {
-    "dim=3 stencil=closed evolved=pFHJ perturb=0.1 material.model=linear-elastic",
+    "dim=3 stencil=closed evolved=pFHJ perturb=0.1 reconstruction=stencil material.model=linear-elastic",
     "dim=3 stencil=sbp2 evolved=pF material.model=linear-elastic",
     "dim=2 n=9 stencil=sbp4 evolved=pFJ integrator=rk4 material.model=linear-elastic",
     "dim=2 n=9 stencil=sph evolved=pFHJ material.model=linear-elastic",
@@ -65,6 +68,7 @@ static const char *const linear[] = {
 
 static const char *const nonlinear[] = {
     "dim=3 stencil=closed evolved=pFHJ perturb=0.1",
+    "dim=3 stencil=closed evolved=pFHJ perturb=0.1 material.model=linear-elastic",
     "dim=2 n=9 stencil=sbp2 evolved=pFJ reconstruction=least-squares",
     "dim=2 n=9 stencil=sbp2 evolved=pFHJ volume_flux=stress integrator=rk4",
     "dim=3 stencil=sbp2 evolved=pF material.model=hencky material.yield_stress=1e-3 material.hardening=0.1",

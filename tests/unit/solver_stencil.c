@@ -151,15 +151,16 @@ static void conform(const struct solver_stencil_builder *builder, int dim, int e
     solver_cloud_free(cloud);
 }
 
-/* Edges short and long, the latter with room for the widest boundary closure. In 3D builders for any cloud, which
- * may take long to set up, get a short one only: memcheck runs this too. */
+/* Edges short and long, the latter with room for the widest boundary closure; in 1D also such that either closure of
+ * sbp4 leaves rows of the interior between its ends. In 3D builders for any cloud, which may take long to set up, get a
+ * short one only: memcheck runs this too. */
 static void conform_all(int dim)
 {
     size_t members = 0;
     for (const struct solver_stencil_builder *b = solver_stencil_builders(); b->name != NULL; b++) {
         bool slow = dim == 3 && !b->lattice_only;
-        const int edge[2] = {slow ? 6 : 8, 12};
-        for (int i = 0; i < (slow ? 1 : 2); i++) {
+        const int edge[4] = {slow ? 6 : 8, 12, 10, 16};
+        for (int i = 0; i < (slow ? 1 : dim > 1 ? 2 : 4); i++) {
             conform(b, dim, edge[i], 0.0);
             conform(b, dim, edge[i], perturb);
         }
