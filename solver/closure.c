@@ -57,25 +57,36 @@ static void swap(double **x, double **y)
     *y = kept;
 }
 
+/* All components at once: their sums do not wait for each other. */
 static void solve_dense(struct solver_closure_grid *grid, size_t lanes)
 {
     size_t n = grid->count;
-    const double *L = grid->factor;
-    for (size_t lane = 0; lane < lanes; lane++) {
-        double *x = grid->next;
-        for (size_t i = 0; i < n; i++) {
-            double sum = grid->r[i * lanes + lane] * sqrt(grid->diagonal[i]);
-            for (size_t j = 0; j < i; j++) {
-                sum -= L[i * n + j] * x[j];
+    for (size_t i = 0; i < n; i++) {
+        const double *L = grid->factor + i * n;
+        double sum[4] = {0.0};
+        for (size_t j = 0; j < i; j++) {
+            for (size_t lane = 0; lane < lanes; lane++) {
+                sum[lane] += L[j] * grid->x[j * lanes + lane];
             }
-            x[i] = sum / L[i * n + i];
         }
-        for (size_t i = n; i-- > 0;) {
-            x[i] /= L[i * n + i];
-            for (size_t j = 0; j < i; j++) {
-                x[j] -= L[i * n + j] * x[i];
+        for (size_t lane = 0; lane < lanes; lane++) {
+            size_t at = i * lanes + lane;
+            grid->x[at] = (grid->r[at] * sqrt(grid->diagonal[i]) - sum[lane]) / L[i];
+        }
+    }
+    for (size_t i = n; i-- > 0;) {
+        const double *L = grid->factor + i * n;
+        double *x = grid->x + i * lanes;
+        for (size_t lane = 0; lane < lanes; lane++) {
+            x[lane] /= L[i];
+        }
+        for (size_t j = 0; j < i; j++) {
+            for (size_t lane = 0; lane < lanes; lane++) {
+                grid->x[j * lanes + lane] -= L[j] * x[lane];
             }
-            grid->x[i * lanes + lane] = x[i] * sqrt(grid->diagonal[i]);
+        }
+        for (size_t lane = 0; lane < lanes; lane++) {
+            x[lane] *= sqrt(grid->diagonal[i]);
         }
     }
 }

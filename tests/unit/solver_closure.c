@@ -109,7 +109,7 @@ static void spaces(void)
 {
     for (int dim = 1; dim <= 3; dim++) {
         struct system of;
-        open_system(&of, dim, dim == 1 ? 90 : dim == 2 ? 24 : 12, 0.2, 2.1);
+        open_system(&of, dim, dim == 1 ? 90 : dim == 2 ? 50 : 12, 0.2, 2.1);
         CU_ASSERT(of.closure.levels >= 3);
         for (int level = 0; level < of.closure.levels; level++) {
             energies(&of, level);
@@ -219,7 +219,8 @@ static void tiny_changes(void)
 }
 
 /* Eight digits take few iterations, and hardly more for ten times as many particles; in 1D, where a particle has four
- * neighbours, and on lattices they grow slowly. */
+ * neighbours, and on lattices they grow slowly. In 2D the bounds hold only where the coarsest grid is not too coarse.
+ */
 static void iterations(void)
 {
     static const struct {
@@ -227,7 +228,7 @@ static void iterations(void)
         double perturb, support;
         int most;
     } cases[] = {
-        {1, {40, 400}, 0.2, 3.0, 60}, {2, {12, 48}, 0.2, 2.0, 50}, {2, {12, 48}, 0.45, 2.6, 40},
+        {1, {40, 400}, 0.2, 3.0, 60}, {2, {12, 48}, 0.2, 2.0, 34}, {2, {12, 48}, 0.45, 2.6, 28},
         {3, {6, 16}, 0.15, 2.0, 40},  {3, {6, 16}, 0.0, 2.2, 40},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
