@@ -1,4 +1,5 @@
 /* The stages of a step, in waves of sweeps (wave.h). */
+#include "solver/memory.h"
 #include "solver/path.h"
 #include "solver/pieces.h"
 #include "solver/run_internal.h"
@@ -30,13 +31,19 @@ int solver_run_wave(const struct solver_run *run, int first)
     int last = first;
     for (; !ends && last < end; last++) {
         int sweep = last % SOLVER_STAGE_SWEEPS;
-        ends =
-            (sweep == SOLVER_SWEEP_RATES && run->acts_on_rates) || (sweep == SOLVER_SWEEP_UPDATE && run->acts_on_state);
+        ends = (sweep == SOLVER_SWEEP_RATES && run->acts_on_rates) ||
+               (sweep == SOLVER_SWEEP_UPDATE && (run->acts_on_state || run->by_stages));
     }
     return last - first;
 }
 
-bool solver_run_make_waves(struct solver_run *run, struct solver_error *error)
+bool solver_run_is_near(const struct solver_run *run)
+{
+    double state = solver_state_bytes_per_particle(&run->state, true) * (double)run->cloud->count;
+    return state + run->scheme->geometry(run->system).bytes <= (double)solver_cache_bytes();
+}
+
+bool solver_run_make_waves(struct solver_run *run, bool by_stages, struct solver_error *error)
 {
     struct solver_wave_graph neighbours = {NULL, NULL};
     if (run->scheme->graph != NULL) {
@@ -45,6 +52,7 @@ bool solver_run_make_waves(struct solver_run *run, struct solver_error *error)
     }
     run->acts_on_rates = acts_on_rates(run);
     run->acts_on_state = acts_on_state(run);
+    run->by_stages = by_stages;
     int sweeps;
     for (int at = 0; at < SOLVER_STAGE_SWEEPS * run->integrator->stages; at += sweeps) {
         sweeps = solver_run_wave(run, at);
