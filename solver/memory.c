@@ -15,11 +15,13 @@ static bool is_large(size_t bytes)
     return bytes >= (size_t)LARGE_PAGE / 2;
 }
 
-size_t solver_cache_bytes(void)
+size_t solver_cache_bytes(int level)
 {
     long bytes = 0;
 #ifdef _SC_LEVEL3_CACHE_SIZE /* of glibc */
-    bytes = sysconf(_SC_LEVEL3_CACHE_SIZE);
+    bytes = sysconf(level == 2 ? _SC_LEVEL2_CACHE_SIZE : _SC_LEVEL3_CACHE_SIZE);
+#else
+    (void)level;
 #endif
     return bytes > 0 ? (size_t)bytes : 0;
 }

@@ -12,7 +12,7 @@
 bool solver_alloc(void **out, size_t count, size_t size, const char *what, struct solver_error *error);
 /* Bytes that such an array takes, rounded up for the alignment; at most SIZE_MAX. */
 size_t solver_alloc_bytes(size_t count, size_t size);
-/* Bytes of the last cache before memory; 0 where the system does not tell. */
-size_t solver_cache_bytes(void);
+/* Bytes of the cache of level 2 or 3; 0 where the system does not tell. */
+size_t solver_cache_bytes(int level);
 
 #endif

@@ -58,9 +58,9 @@ struct solver_work {
 
 /* How many sweeps of a step, which has SOLVER_STAGE_SWEEPS a stage, go as one wave, from `first` on. */
 int solver_run_wave(const struct solver_run *run, int first);
-/* Whether the body lies in the last cache: then the more sweeps a wave has, the farther it is from one to the next,
- * and what that loses of the cache before is more than what it saves of this one. */
-bool solver_run_is_near(const struct solver_run *run);
+/* Whether stages should end waves: where what a step's sweeps have between them is more than the processor's own cache,
+ * a stage's less of it, and the body lies in the cache before memory, so that passing through it twice costs less. */
+bool solver_run_parts_stages(const struct solver_run *run);
 /* The waves of a step, which have been found once; no result depends on whether stages end them. */
 bool solver_run_make_waves(struct solver_run *run, bool by_stages, struct solver_error *error);
 /* All stages of a step. After a failure the state is that of the start. *whole: no particle is broken; else it is not

@@ -37,10 +37,27 @@ int solver_run_wave(const struct solver_run *run, int first)
     return last - first;
 }
 
-bool solver_run_is_near(const struct solver_run *run)
+/* How far from a particle its farthest neighbour lies, in particles: on a lattice a plane. */
+static size_t farthest(const struct solver_run *run)
 {
-    double state = solver_state_bytes_per_particle(&run->state, true) * (double)run->cloud->count;
-    return state + run->scheme->geometry(run->system).bytes <= (double)solver_cache_bytes();
+    const struct solver_graph *graph = run->scheme->graph != NULL ? run->scheme->graph(run->system) : NULL;
+    size_t most = 0;
+    for (size_t a = 0; graph != NULL && a < run->cloud->count; a++) {
+        for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
+            size_t b = graph->neighbour[ab];
+            most = b > a + most ? b - a : most;
+        }
+    }
+    return most;
+}
+
+bool solver_run_parts_stages(const struct solver_run *run)
+{
+    double each = solver_state_bytes_per_particle(&run->state, true) +
+                  run->scheme->geometry(run->system).bytes / (double)run->cloud->count;
+    int planes = SOLVER_STAGE_SWEEPS * run->integrator->stages + 2; /* one for each sweep, and what is beside them */
+    return each * (double)run->cloud->count <= (double)solver_cache_bytes(3) &&
+           each * (double)farthest(run) * planes > (double)solver_cache_bytes(2);
 }
 
 bool solver_run_make_waves(struct solver_run *run, bool by_stages, struct solver_error *error)

@@ -44,16 +44,16 @@ static void test_stages(void)
     }
 }
 
-/* A body of a thousand particles lies in the last cache, where the system tells how large that is. */
-static void test_near(void)
+/* By the caches' sizes, where the system tells them: a plane has 11^2 particles, and a step's sweeps eight planes. */
+static void test_caches(void)
 {
-    struct sample sample = start(smooth_motion, "dim=3 n=9");
+    struct sample sample = start(smooth_motion, "dim=3 n=10");
     struct solver_error error;
-    size_t cache = solver_cache_bytes();
-    bool fits =
-        cache > 0 && cache >= sample.run->cloud->count * (size_t)solver_run_facts(sample.run).bytes_per_particle;
-    CU_ASSERT_EQUAL(solver_run_is_near(sample.run), fits);
-    CU_ASSERT_EQUAL(sample.run->by_stages, fits);
+    double each = solver_run_facts(sample.run).bytes_per_particle;
+    bool more = each * 121 * 8 > (double)solver_cache_bytes(2);
+    bool fits = each * 1331 <= (double)solver_cache_bytes(3);
+    CU_ASSERT_EQUAL(solver_run_parts_stages(sample.run), more && fits);
+    CU_ASSERT_EQUAL(sample.run->by_stages, more && fits);
     CU_ASSERT(solver_run_steps(sample.run, 1, &error));
     finish(&sample);
 }
@@ -62,7 +62,7 @@ int main(void)
 {
     static const struct unit_test tests[] = {
         {"one wave or a wave for each stage", test_stages},
-        {"bodies in the last cache", test_near},
+        {"by the sizes of caches", test_caches},
     };
     return unit_main("solver run waves", tests, sizeof tests / sizeof *tests);
 }
