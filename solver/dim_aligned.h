@@ -4,7 +4,6 @@
 #ifndef SOLVER_DIM_ALIGNED_H
 #define SOLVER_DIM_ALIGNED_H
 
-#include "solver/dim_fetch.h"
 #include "solver/dim_fluxes.h"
 
 #include <string.h>
@@ -311,19 +310,15 @@ static inline __attribute__((always_inline)) void sum_lines(const struct solver_
     }
 }
 
-/* What rates_with of upwind_dim.c does. */
+/* What rates_with of upwind_dim.c does. Neighbours are read as streams, row beside row, and what is asked for ahead of
+ * time (dim_fetch.h) would be there already. */
 static inline __attribute__((always_inline)) void aligned_rates_with(const struct solver_upwind *work, size_t begin,
                                                                      size_t end, struct terms terms)
 {
-    size_t last = work->row[end] > 0 ? work->row[end] - 1 : 0;
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
         struct sums sums[GROUP];
-        for (size_t k = 0; work->far && k < group.shortest; k++) {
-            struct pairs pairs = pairs_of(work, &group, k, false);
-            fetch(work, work->F_rate, &pairs, last);
-        }
         if (are_inner(work, &group)) {
             sum_lines(work, &group, INNER, terms, sums);
         } else {

@@ -4,13 +4,26 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 enum { ALIGNMENT = 64, LARGE_PAGE = 1 << 21 };
 
-/* Loops gather from all over a large array: on small pages they wait for the tables of pages. */
+/* Loops gather from all over a large array: on small pages they wait for the tables of pages. One that fills less than
+ * half a page is not worth the rest of it. */
 static bool is_large(size_t bytes)
 {
-    return bytes >= 4 * (size_t)LARGE_PAGE;
+    return bytes >= (size_t)LARGE_PAGE / 2;
+}
+
+size_t solver_cache_bytes(int level)
+{
+    long bytes = 0;
+#ifdef _SC_LEVEL3_CACHE_SIZE /* of glibc */
+    bytes = sysconf(level == 2 ? _SC_LEVEL2_CACHE_SIZE : _SC_LEVEL3_CACHE_SIZE);
+#else
+    (void)level;
+#endif
+    return bytes > 0 ? (size_t)bytes : 0;
 }
 
 size_t solver_alloc_bytes(size_t count, size_t size)

@@ -206,7 +206,7 @@ static bool build(struct solver_run *run, struct solver_error *error)
     }
     run->projection.held = run->projection.held || run->wall.count > 0;
     find_probes(run);
-    return solver_run_make_waves(run, error) && initial_state(run, error);
+    return solver_run_make_waves(run, solver_run_parts_stages(run), error) && initial_state(run, error);
 }
 
 bool solver_run_create(const struct solver_scene *scene, struct solver_run **out, struct solver_error *error)

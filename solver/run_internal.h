@@ -11,8 +11,8 @@
 #include "solver/wall.h"
 #include "solver/wave.h"
 
-/* Of a stage: three, which go as one wave with those before and after, unless something that acts on all particles at
- * once cuts in. */
+/* Of a stage: three, which go as one wave, with those of other stages where the body is large, unless something that
+ * acts on all particles at once cuts in. */
 enum solver_sweep { SOLVER_SWEEP_GRADIENTS, SOLVER_SWEEP_RATES, SOLVER_SWEEP_UPDATE, SOLVER_STAGE_SWEEPS };
 enum { SOLVER_STEP_SWEEPS = SOLVER_STAGES * SOLVER_STAGE_SWEEPS };
 
@@ -32,6 +32,7 @@ struct solver_run {
     struct solver_state state;
     struct solver_wave wave[SOLVER_STEP_SWEEPS + 1]; /* by sweeps; those that the scene's steps take */
     bool acts_on_rates, acts_on_state;               /* something does, on all at once, and ends a wave */
+    bool by_stages;                                  /* stages end waves as well */
     double fastest;                                  /* [m/s] wave of the present state; 0: not known */
     double time, external, numerical;                /* [s]; [J], the last where the scene's balance asks */
     size_t step;
@@ -57,8 +58,11 @@ struct solver_work {
 
 /* How many sweeps of a step, which has SOLVER_STAGE_SWEEPS a stage, go as one wave, from `first` on. */
 int solver_run_wave(const struct solver_run *run, int first);
-/* The waves of a step, which have been found once; and what they take. */
-bool solver_run_make_waves(struct solver_run *run, struct solver_error *error);
+/* Whether stages should end waves: where what a step's sweeps have between them is more than the processor's own cache,
+ * a stage's less of it, and the body lies in the cache before memory, so that passing through it twice costs less. */
+bool solver_run_parts_stages(const struct solver_run *run);
+/* The waves of a step, which have been found once; no result depends on whether stages end them. */
+bool solver_run_make_waves(struct solver_run *run, bool by_stages, struct solver_error *error);
 /* All stages of a step. After a failure the state is that of the start. *whole: no particle is broken; else it is not
  * known. */
 bool solver_run_stages(struct solver_run *run, double dt, struct solver_work *work, bool *whole,

@@ -1,4 +1,5 @@
 /* The stages of a step, in waves of sweeps (wave.h). */
+#include "solver/memory.h"
 #include "solver/path.h"
 #include "solver/pieces.h"
 #include "solver/run_internal.h"
@@ -30,13 +31,36 @@ int solver_run_wave(const struct solver_run *run, int first)
     int last = first;
     for (; !ends && last < end; last++) {
         int sweep = last % SOLVER_STAGE_SWEEPS;
-        ends =
-            (sweep == SOLVER_SWEEP_RATES && run->acts_on_rates) || (sweep == SOLVER_SWEEP_UPDATE && run->acts_on_state);
+        ends = (sweep == SOLVER_SWEEP_RATES && run->acts_on_rates) ||
+               (sweep == SOLVER_SWEEP_UPDATE && (run->acts_on_state || run->by_stages));
     }
     return last - first;
 }
 
-bool solver_run_make_waves(struct solver_run *run, struct solver_error *error)
+/* How far from a particle its farthest neighbour lies, in particles: on a lattice a plane. */
+static size_t farthest(const struct solver_run *run)
+{
+    const struct solver_graph *graph = run->scheme->graph != NULL ? run->scheme->graph(run->system) : NULL;
+    size_t most = 0;
+    for (size_t a = 0; graph != NULL && a < run->cloud->count; a++) {
+        for (size_t ab = graph->row[a]; ab < graph->row[a + 1]; ab++) {
+            size_t b = graph->neighbour[ab];
+            most = b > a + most ? b - a : most;
+        }
+    }
+    return most;
+}
+
+bool solver_run_parts_stages(const struct solver_run *run)
+{
+    double each = solver_state_bytes_per_particle(&run->state, true) +
+                  run->scheme->geometry(run->system).bytes / (double)run->cloud->count;
+    int planes = SOLVER_STAGE_SWEEPS * run->integrator->stages + 2; /* one for each sweep, and what is beside them */
+    return each * (double)run->cloud->count <= (double)solver_cache_bytes(3) &&
+           each * (double)farthest(run) * planes > (double)solver_cache_bytes(2);
+}
+
+bool solver_run_make_waves(struct solver_run *run, bool by_stages, struct solver_error *error)
 {
     struct solver_wave_graph neighbours = {NULL, NULL};
     if (run->scheme->graph != NULL) {
@@ -45,6 +69,7 @@ bool solver_run_make_waves(struct solver_run *run, struct solver_error *error)
     }
     run->acts_on_rates = acts_on_rates(run);
     run->acts_on_state = acts_on_state(run);
+    run->by_stages = by_stages;
     int sweeps;
     for (int at = 0; at < SOLVER_STAGE_SWEEPS * run->integrator->stages; at += sweeps) {
         sweeps = solver_run_wave(run, at);

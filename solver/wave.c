@@ -5,9 +5,6 @@
 
 #include <stdlib.h>
 
-/* Pieces that begin together. */
-enum { BATCH = 16 };
-
 /* What is needed to find the order. */
 struct plan {
     size_t pieces;
@@ -15,7 +12,7 @@ struct plan {
     uint32_t *beside;  /* [row[pieces]] pieces with neighbours of a piece's particles */
     int *done;         /* [pieces] sweeps that it is through */
     size_t begin, end; /* of the chunk */
-    uint32_t *list;    /* [pieces * sweeps] that a batch has taken, sweep after sweep */
+    uint32_t *list;    /* [pieces * sweeps] that have followed one that began, sweep after sweep */
     size_t listed;
     struct solver_wave *wave;
     size_t tasks;
@@ -120,16 +117,14 @@ static void try(struct plan *plan, size_t piece, int sweep)
     }
 }
 
-/* Sweeps of a batch of pieces, and of what has waited for them. Within a sweep pieces go in order, so that memory is
- * read in long runs. */
-static void go_batch(struct plan *plan, size_t begin, size_t end, int sweeps)
+/* Sweeps of a piece, and of what has waited for it. Within a sweep pieces go in order, so that memory is read in long
+ * runs. Pieces that began several at a time would leave the cache before the next sweep. */
+static void begin_piece(struct plan *plan, size_t begins, int sweeps)
 {
     size_t from = 0; /* of the list: those that the last sweep took */
     plan->listed = 0;
-    for (size_t piece = begin; piece < end; piece++) {
-        go(plan, piece, plan->done[piece]++);
-        plan->list[plan->listed++] = (uint32_t)piece;
-    }
+    go(plan, begins, plan->done[begins]++);
+    plan->list[plan->listed++] = (uint32_t)begins;
     for (int sweep = 1; sweep < sweeps; sweep++) {
         size_t to = plan->listed;
         for (size_t i = from; i < to; i++) {
@@ -152,9 +147,8 @@ static void order_chunk(struct plan *plan, size_t *first, bool together)
 {
     struct solver_wave *wave = plan->wave;
     first[0] = plan->tasks;
-    for (size_t begin = plan->begin; begin < plan->end; begin += BATCH) {
-        size_t end = begin + BATCH < plan->end ? begin + BATCH : plan->end;
-        go_batch(plan, begin, end, together ? wave->sweeps : 1);
+    for (size_t piece = plan->begin; piece < plan->end; piece++) {
+        begin_piece(plan, piece, together ? wave->sweeps : 1);
     }
     wave->in_round += plan->tasks - first[0];
     for (int sweep = 1; sweep < wave->sweeps; sweep++) {

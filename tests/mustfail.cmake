@@ -155,6 +155,7 @@ assay_unit_mutant(slope-across-interface solver_run_composite "energy where mate
 assay_unit_mutant(step-without-meeting solver_run_composite
                   "a step for materials that differ ten thousand times")
 assay_unit_mutant(wave-runs-ahead solver_wave "each sweep waits for neighbours")
+assay_unit_mutant(stages-do-not-end-waves solver_run_waves "one wave or a wave for each stage")
 assay_unit_mutant(jst-biharmonic-sign solver_jst "its work is the Laplacian's square")
 assay_unit_mutant(ulsph-spin-sign solver_ulsph_gradients "linear velocity")
 assay_unit_mutant(ulsph-divergence-correction solver_ulsph_forces "work of forces is that of stress")
