@@ -5,6 +5,7 @@
  * and at small strain the model is Hooke's law for every evolved set. neo-hookean-polyconvex  J is the evolved one in
  * both terms: convex in (F, J), but the drift enters P through kappa + mu (swinging cube, sbp2, n = 16: error of
  * P 2.9e-3 instead of 2.3e-3). F:F counts the directions out of the plane. */
+#define WIDE_LOTS
 #include "solver/dim.h"
 #include "solver/dim_flops.h"
 #include "solver/dim_ranges.h"
