@@ -53,24 +53,27 @@ static size_t still_from(const struct solver_faces *faces, size_t particle)
     return low;
 }
 
-/* Whether a component stays, by the axes that are held: without a branch, as edges and corners take turns. */
+/* Bits of a component that stay, by the axes that are held: no branch, as edges and corners take turns. */
 #define KEPT(axes)                                                                                                     \
     {                                                                                                                  \
-        (axes) & 1 ? 0 : UINT64_MAX, (axes)&2 ? 0 : UINT64_MAX, (axes)&4 ? 0 : UINT64_MAX, UINT64_MAX                  \
+        (uint64_t)((axes)&1) - 1, (uint64_t)((axes) >> 1 & 1) - 1, (uint64_t)((axes) >> 2 & 1) - 1, UINT64_MAX         \
     }
 static const uint64_t kept[8][4] = {KEPT(0), KEPT(1), KEPT(2), KEPT(3), KEPT(4), KEPT(5), KEPT(6), KEPT(7)};
 
 static inline __attribute__((always_inline)) void hold(const struct solver_still *still, size_t count, double *v,
                                                        size_t lanes)
 {
+    enum { WORDS = sizeof *v / sizeof(uint64_t) };
     for (size_t c = 0; c < count; c++) {
         double *of = v + still[c].particle * lanes;
         const uint64_t *keep = kept[still[c].axes];
         for (size_t i = 0; i < lanes; i++) {
-            uint64_t bits;
-            memcpy(&bits, of + i, sizeof bits);
-            bits &= keep[i];
-            memcpy(of + i, &bits, sizeof bits);
+            uint64_t bits[WORDS];
+            memcpy(bits, of + i, sizeof bits);
+            for (size_t word = 0; word < WORDS; word++) {
+                bits[word] &= keep[i];
+            }
+            memcpy(of + i, bits, sizeof bits);
         }
     }
 }
@@ -79,10 +82,8 @@ static void hold_in_single(const struct solver_still *still, size_t count, struc
 {
     for (size_t c = 0; c < count; c++) {
         for (size_t i = 0; i < v.lanes; i++) {
-            uint32_t bits;
-            memcpy(&bits, v.single + still[c].particle * v.lanes + i, sizeof bits);
-            bits &= (uint32_t)kept[still[c].axes][i];
-            memcpy(v.single + still[c].particle * v.lanes + i, &bits, sizeof bits);
+            float *of = v.single + still[c].particle * v.lanes + i;
+            *of = kept[still[c].axes][i] != 0 ? *of : 0.0F;
         }
     }
 }
