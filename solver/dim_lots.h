@@ -5,6 +5,7 @@
 #define SOLVER_DIM_LOTS_H
 
 #include "solver/dim.h"
+#include "solver/dim_flops.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -296,15 +297,5 @@ static inline lot squares(const struct tensors *A)
     }
     return sum;
 }
-
-/* As FLOPS_ of dim_flops.h: of one particle. */
-enum {
-    LOT_DOT = 2 * DIM - 1,
-    LOT_COFACTOR = DIM == 3 ? 27 : 0,
-    LOT_DETERMINANT = DIM == 3   ? 9 + LOT_DOT
-                      : DIM == 2 ? 3
-                                 : 0,
-    LOT_SQUARES = DIM * LOT_DOT + DIM - 1
-};
 
 #endif

@@ -167,9 +167,9 @@ static inline void particle_terms(const struct solver_upwind *work, size_t count
     }
     solver_cost_term(terms, flows ? "stress and plastic flow" : "stress", 0, particles * stress);
     solver_cost_once(terms, "length of the step", particles * fastest);
-    bool known = work->frozen || (work->J != NULL && !work->constrained); /* whether it is J > 0 */
-    solver_cost_once(terms, "whether the state is whole",
-                     particles * (FLOPS_DOT + 2.0 * FLOPS_TENSOR + (known ? 0.0 : FLOPS_DETERMINANT)));
+    double squares = 2.0 * (LANES + FLOPS_TENSOR);
+    double J = work->J != NULL && !work->constrained ? 2.0 : work->frozen ? 0.0 : LOT_DETERMINANT;
+    solver_cost_once(terms, "whether the state is whole", particles * (squares + J)); /* dim_whole.h */
 }
 
 #endif
