@@ -187,7 +187,7 @@ stress_of_lot(struct constants of, const double *F, const double *H, const doubl
     lot jacobian = reading.J ? load_lot(J) : determinants(&at);
     lot isochoric = reading.J && !reading.polyconvex ? determinants(&at) : jacobian;
     lot shear = of.mu * inverse_square_of_cube_root(isochoric);
-    lot by_isochoric = shear * ((squares(&at) + (3.0 - DIM)) / (-3.0 * isochoric)); /* nothing waits for the root */
+    lot by_isochoric = shear * (squares(&at) + (3.0 - DIM)) / (-3.0 * isochoric);
     lot pressure = of.kappa * (jacobian - 1.0);
     struct tensors P;
     if (reading.polyconvex || !reading.H) { /* one cofactor goes with both terms */

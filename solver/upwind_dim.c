@@ -8,6 +8,7 @@
 #include "solver/dim_sums.h"
 #include "solver/dim_upwind_terms.h"
 #ifndef SINGLE
+#include "solver/dim_cofactors.h"
 #include "solver/dim_whole.h"
 #endif
 
@@ -358,9 +359,7 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end)
 static void stresses(const struct solver_upwind *work, size_t begin, size_t end)
 {
     if (work->cofactor != NULL && !work->evolves_H) {
-        for (size_t a = begin; a < end; a++) {
-            store_tensor(work->cofactor + a * TENSOR, cofactor(load_tensor(work->F + a * TENSOR)));
-        }
+        cofactor_range(work->F + begin * TENSOR, end - begin, work->cofactor + begin * TENSOR);
     }
     if (work->pressure != NULL) {
         work->material->volumetric_range(work->constants, work->stride, begin, end, work->J, work->pressure);
