@@ -19,8 +19,8 @@ static bool acts_on_rates(const struct solver_run *run)
 /* Whether more may change the state after a stage's update: the pressure's correction, a wall, a moved face, images. */
 static bool acts_on_state(const struct solver_run *run)
 {
-    return run->scene->incompressible.solver != SOLVER_PRESSURE_NONE || run->wall.count > 0 ||
-           !run->faces.only_hold || run->cloud->symmetry != NULL || run->scheme->evaluate != NULL;
+    return run->scene->incompressible.solver != SOLVER_PRESSURE_NONE || run->wall.count > 0 || !run->faces.only_hold ||
+           run->cloud->symmetry != NULL || run->scheme->evaluate != NULL;
 }
 
 int solver_run_wave(const struct solver_run *run, int first)
