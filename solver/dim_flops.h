@@ -1,4 +1,4 @@
-/* Operations of dim.h and dim_sums.h, as cost.h counts them. */
+/* Operations of dim.h, dim_sums.h and dim_lots.h, as cost.h counts them. */
 #ifndef SOLVER_DIM_FLOPS_H
 #define SOLVER_DIM_FLOPS_H
 
@@ -20,6 +20,16 @@ enum {
                                    : 0,
     FLOPS_TENSOR_CROSS = DIM == 3 ? 21 * LANES : 0,
     FLOPS_ADD_SCALED = 2 * FLOPS_TENSOR /* one vector, times each component of another, added to a tensor */
+};
+
+/* Of one particle of a lot (dim_lots.h). */
+enum {
+    LOT_DOT = 2 * DIM - 1,
+    LOT_COFACTOR = DIM == 3 ? 27 : 0,
+    LOT_DETERMINANT = DIM == 3   ? 9 + LOT_DOT
+                      : DIM == 2 ? 3
+                                 : 0,
+    LOT_SQUARES = DIM * LOT_DOT + DIM - 1
 };
 
 #endif

@@ -5,18 +5,29 @@
 #define SOLVER_DIM_LOTS_H
 
 #include "solver/dim.h"
+#include "solver/dim_flops.h"
 
 #include <math.h>
 #include <stdbool.h>
 
+/* Files whose loops gain by it ask for lots as wide as registers of AVX-512. */
+#if defined WIDE_LOTS && defined __AVX512F__ && DIM > 1
+enum { LOT = 8 };
+#define LOT_OF_EIGHT
+#else
 enum { LOT = 4 };
+#endif
 typedef double lot __attribute__((vector_size(LOT * sizeof(double))));
 /* All bits of a lane are set, or none: what a comparison gives. */
 typedef __typeof__((lot){0} > (lot){0}) lot_mask;
 
 static inline lot lot_of(double a)
 {
+#ifdef LOT_OF_EIGHT
+    return (lot){a, a, a, a, a, a, a, a};
+#else
     return (lot){a, a, a, a};
+#endif
 }
 
 static inline lot select_lot(lot_mask where, lot a, lot b)
@@ -37,7 +48,9 @@ static inline bool all_lot(lot_mask mask)
 
 static inline lot sqrt_lot(lot a)
 {
-#ifdef __AVX__
+#if defined LOT_OF_EIGHT
+    return _mm512_sqrt_pd(a);
+#elif defined __AVX__
     return _mm256_sqrt_pd(a);
 #else
     return (lot){sqrt(a[0]), sqrt(a[1]), sqrt(a[2]), sqrt(a[3])};
@@ -57,6 +70,87 @@ static inline void store_lot(double *to, lot value)
     *(lot_anywhere *)to = value;
 }
 
+/* Tensors of LOT particles, by columns as in dim.h. */
+struct tensors {
+    lot column[DIM][DIM];
+};
+
+#if defined LOT_OF_EIGHT && DIM == 3
+/* Vectors of particles k and k + 4 lie in one register, so that its halves are as the lots of four below. */
+static inline struct tensors load_tensors(const double *from)
+{
+    struct tensors T;
+    for (int I = 0; I < DIM; I++) {
+        lot of[4];
+        for (int k = 0; k < 4; k++) {
+            of[k] = __builtin_shufflevector(load(from + (k * DIM + I) * LANES),
+                                            load(from + ((k + 4) * DIM + I) * LANES), 0, 1, 2, 3, 4, 5, 6, 7);
+        }
+        lot low[2];
+        lot high[2];
+        for (int k = 0; k < 2; k++) {
+            low[k] = __builtin_shufflevector(of[2 * k], of[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+            high[k] = __builtin_shufflevector(of[2 * k], of[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+        }
+        T.column[I][0] = __builtin_shufflevector(low[0], low[1], 0, 1, 8, 9, 4, 5, 12, 13);
+        T.column[I][1] = __builtin_shufflevector(high[0], high[1], 0, 1, 8, 9, 4, 5, 12, 13);
+        T.column[I][2] = __builtin_shufflevector(low[0], low[1], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+    return T;
+}
+
+static inline void store_tensors(double *to, const struct tensors *T)
+{
+    lot none = {0};
+    for (int I = 0; I < DIM; I++) {
+        lot even[2] = {__builtin_shufflevector(T->column[I][0], T->column[I][1], 0, 8, 2, 10, 4, 12, 6, 14),
+                       __builtin_shufflevector(T->column[I][2], none, 0, 8, 2, 10, 4, 12, 6, 14)};
+        lot odd[2] = {__builtin_shufflevector(T->column[I][0], T->column[I][1], 1, 9, 3, 11, 5, 13, 7, 15),
+                      __builtin_shufflevector(T->column[I][2], none, 1, 9, 3, 11, 5, 13, 7, 15)};
+        lot of[4] = {__builtin_shufflevector(even[0], even[1], 0, 1, 8, 9, 4, 5, 12, 13),
+                     __builtin_shufflevector(odd[0], odd[1], 0, 1, 8, 9, 4, 5, 12, 13),
+                     __builtin_shufflevector(even[0], even[1], 2, 3, 10, 11, 6, 7, 14, 15),
+                     __builtin_shufflevector(odd[0], odd[1], 2, 3, 10, 11, 6, 7, 14, 15)};
+        for (int k = 0; k < 4; k++) {
+            store(to + (k * DIM + I) * LANES, __builtin_shufflevector(of[k], of[k], 0, 1, 2, 3));
+            store(to + ((k + 4) * DIM + I) * LANES, __builtin_shufflevector(of[k], of[k], 4, 5, 6, 7));
+        }
+    }
+}
+#elif defined LOT_OF_EIGHT
+/* Tensors of two particles lie in one register. */
+static inline struct tensors load_tensors(const double *from)
+{
+    struct tensors T;
+    lot two[4];
+    for (int k = 0; k < 4; k++) {
+        two[k] = load_lot(from + k * LOT);
+    }
+    for (int i = 0; i < DIM; i++) {
+        lot of[2];
+        for (int k = 0; k < 2; k++) { /* of particles 4 k, 4 k + 2 and 4 k + 1, 4 k + 3, column after column */
+            of[k] = i == 0 ? __builtin_shufflevector(two[2 * k], two[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14)
+                           : __builtin_shufflevector(two[2 * k], two[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+        }
+        T.column[0][i] = __builtin_shufflevector(of[0], of[1], 0, 4, 1, 5, 8, 12, 9, 13);
+        T.column[1][i] = __builtin_shufflevector(of[0], of[1], 2, 6, 3, 7, 10, 14, 11, 15);
+    }
+    return T;
+}
+
+static inline void store_tensors(double *to, const struct tensors *T)
+{
+    for (int k = 0; k < 2; k++) { /* the same, backwards */
+        lot of[2];
+        for (int i = 0; i < DIM; i++) {
+            of[i] = k == 0 ? __builtin_shufflevector(T->column[0][i], T->column[1][i], 0, 2, 8, 10, 1, 3, 9, 11)
+                           : __builtin_shufflevector(T->column[0][i], T->column[1][i], 4, 6, 12, 14, 5, 7, 13, 15);
+        }
+        store_lot(to + 2 * k * LOT, __builtin_shufflevector(of[0], of[1], 0, 8, 2, 10, 4, 12, 6, 14));
+        store_lot(to + (2 * k + 1) * LOT, __builtin_shufflevector(of[0], of[1], 1, 9, 3, 11, 5, 13, 7, 15));
+    }
+}
+#else
 /* Vectors of LOT particles by components, and back. */
 static inline void vectors_apart(const vec of[LOT], lot component[DIM])
 {
@@ -106,11 +200,6 @@ static inline void vectors_together(const lot component[DIM], vec of[LOT])
 #endif
 }
 
-/* Tensors of LOT particles, by columns as in dim.h. */
-struct tensors {
-    lot column[DIM][DIM];
-};
-
 /* Tensors of a field, from that of one particle on. */
 static inline struct tensors load_tensors(const double *from)
 {
@@ -135,6 +224,7 @@ static inline void store_tensors(double *to, const struct tensors *T)
         }
     }
 }
+#endif
 
 /* The same tensor in each lane. */
 static inline struct tensors tensors_of(struct tensor T)
@@ -207,15 +297,5 @@ static inline lot squares(const struct tensors *A)
     }
     return sum;
 }
-
-/* As FLOPS_ of dim_flops.h: of one particle. */
-enum {
-    LOT_DOT = 2 * DIM - 1,
-    LOT_COFACTOR = DIM == 3 ? 27 : 0,
-    LOT_DETERMINANT = DIM == 3   ? 9 + LOT_DOT
-                      : DIM == 2 ? 3
-                                 : 0,
-    LOT_SQUARES = DIM * LOT_DOT + DIM - 1
-};
 
 #endif

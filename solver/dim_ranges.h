@@ -24,11 +24,14 @@ struct constants {
 
 static inline struct constants constants_of(const struct solver_material_constants *material, size_t stride)
 {
-    const struct solver_material_constants *m[LOT] = {material, material + stride, material + 2 * stride,
-                                                      material + 3 * stride};
-    return (struct constants){.mu = {m[0]->mu, m[1]->mu, m[2]->mu, m[3]->mu},
-                              .kappa = {m[0]->kappa, m[1]->kappa, m[2]->kappa, m[3]->kappa},
-                              .rho = {m[0]->rho, m[1]->rho, m[2]->rho, m[3]->rho}};
+    struct constants of = {.mu = {0}};
+    for (size_t k = 0; k < LOT; k++) {
+        const struct solver_material_constants *here = material + k * stride;
+        of.mu[k] = here->mu;
+        of.kappa[k] = here->kappa;
+        of.rho[k] = here->rho;
+    }
+    return of;
 }
 
 /* `width` numbers of each of `count` particles, to those of LOT. */

@@ -146,7 +146,8 @@ static inline void particle_terms(const struct solver_upwind *work, size_t count
     bool flows = work->flown != NULL;
     int stress = flows ? material->flow->stress_flops(cofactor, work->J != NULL)
                        : material->stress_flops(cofactor, work->J != NULL);
-    int fastest = flows ? material->flow->fastest_flops : material->fastest_flops;
+    int fastest = flows ? material->flow->fastest_flops
+                        : material->fastest_flops + (work->stride != 0 ? material->composite_flops : 0);
     solver_cost_term(terms, "rate of v", 0, particles * (3.0 + FLOPS_ADD_SCALED + 2.0 * LANES));
     if (work->evolves_J) {
         solver_cost_term(terms, "rate of J", 0, particles * (4.0 + (work->frozen ? FLOPS_TRACE : FLOPS_CONTRACT)));
@@ -167,9 +168,9 @@ static inline void particle_terms(const struct solver_upwind *work, size_t count
     }
     solver_cost_term(terms, flows ? "stress and plastic flow" : "stress", 0, particles * stress);
     solver_cost_once(terms, "length of the step", particles * fastest);
-    bool known = work->frozen || (work->J != NULL && !work->constrained); /* whether it is J > 0 */
-    solver_cost_once(terms, "whether the state is whole",
-                     particles * (FLOPS_DOT + 2.0 * FLOPS_TENSOR + (known ? 0.0 : FLOPS_DETERMINANT)));
+    double squares = 2.0 * (LANES + FLOPS_TENSOR);
+    double J = work->J != NULL && !work->constrained ? 2.0 : work->frozen ? 0.0 : LOT_DETERMINANT;
+    solver_cost_once(terms, "whether the state is whole", particles * (squares + J)); /* dim_whole.h */
 }
 
 #endif

@@ -160,12 +160,13 @@ bool solver_faces_create(const struct solver_body *body, const struct solver_geo
             faces->load[faces->load_count++] = geometry->face_point[i];
         }
     }
-    return true;
+    return solver_faces_list_still(faces, error);
 }
 
 void solver_faces_free(struct solver_faces *faces)
 {
     free(faces->constraint);
+    free(faces->still);
     free(faces->load);
     free(faces->force);
     *faces = (struct solver_faces){.constraint = NULL};
@@ -221,6 +222,10 @@ static void set_velocity(const struct solver_faces *faces, const struct solver_c
 bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t,
                             struct solver_vectors v, struct solver_error *error)
 {
+    if (faces->only_hold) {
+        solver_faces_hold(faces, v, 0, body->cloud->count);
+        return true;
+    }
     for (size_t c = 0; c < faces->constraint_count; c++) {
         const struct solver_constraint *constraint = &faces->constraint[c];
         double velocity[3] = {0};
@@ -233,44 +238,6 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
         set_velocity(faces, constraint, t, &v, velocity, image_velocity);
     }
     return true;
-}
-
-bool solver_faces_only_hold(const struct solver_faces *faces)
-{
-    bool only = true;
-    for (size_t c = 0; c < faces->constraint_count; c++) {
-        const struct solver_constraint *constraint = &faces->constraint[c];
-        only = only && constraint->image == constraint->particle;
-        for (size_t i = 0; i < (size_t)faces->dim; i++) {
-            only = only && constraint->axis[i].motion < 0;
-        }
-    }
-    return only;
-}
-
-/* The first constraint of a particle not below `particle`. */
-static size_t constraint_from(const struct solver_faces *faces, size_t particle)
-{
-    size_t low = 0;
-    size_t high = faces->constraint_count;
-    while (low < high) {
-        size_t middle = low + (high - low) / 2;
-        if (faces->constraint[middle].particle < particle) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
-
-void solver_faces_hold(const struct solver_faces *faces, double t, struct solver_vectors v, size_t begin, size_t end)
-{
-    const double still[3] = {0.0};
-    size_t last = constraint_from(faces, end);
-    for (size_t c = constraint_from(faces, begin); c < last; c++) {
-        set_velocity(faces, &faces->constraint[c], t, &v, still, still);
-    }
 }
 
 /* Asks for the body force at time t, unless it is that of the last time. Formulas of the scene share an interpreter;
@@ -365,6 +332,7 @@ void solver_faces_arrays(const struct solver_faces *faces, const struct solver_b
     static const char group[] = "faces";
     solver_cost_array(arrays, group, "constraints", faces->constraint, faces->constraint_count,
                       sizeof *faces->constraint);
+    solver_cost_array(arrays, group, "particles held", faces->still, faces->constraint_count, sizeof *faces->still);
     solver_cost_array(arrays, group, "loads", faces->load, faces->load_count, sizeof *faces->load);
     solver_cost_array(arrays, group, "body force", faces->force, body->cloud->count * (size_t)faces->dim,
                       sizeof *faces->force);
@@ -375,7 +343,7 @@ void solver_faces_terms(const struct solver_faces *faces, const struct solver_bo
 {
     double dim = faces->dim;
     double constrained = 0.0;
-    for (size_t c = 0; c < faces->constraint_count; c++) {
+    for (size_t c = 0; c < faces->constraint_count && !faces->only_hold; c++) {
         bool mirrored = faces->constraint[c].image != faces->constraint[c].particle;
         constrained += dim * (mirrored ? 4.0 : 2.0);
     }

@@ -26,10 +26,17 @@ static inline bool solver_held_at(const struct solver_held *axis, double t)
     return t <= axis->until ? axis->held : axis->after;
 }
 
+/* A particle that does not move along the axes of these bits, ever. */
+struct solver_still {
+    uint32_t particle, axes;
+};
+
 struct solver_faces {
     int dim;
     size_t constraint_count;
     struct solver_constraint *constraint; /* by particle */
+    bool only_hold;                       /* constraints do no more than hold particles along axes; */
+    struct solver_still *still;           /* [constraint_count] which then stand here, too; else NULL */
     bool moved;                           /* some face is moved, which does work that nobody counts */
     size_t load_count;
     struct solver_face_point *load; /* face points of faces that prescribe a traction, or one across the normal */
@@ -50,10 +57,10 @@ void solver_faces_terms(const struct solver_faces *faces, const struct solver_bo
 /* Enforces the constraints on v at time t. */
 bool solver_faces_constrain(const struct solver_faces *faces, const struct solver_body *body, double t,
                             struct solver_vectors v, struct solver_error *error);
-/* Whether they do no more than hold particles along axes; and what they then do to particles [begin, end), in a thread.
- */
-bool solver_faces_only_hold(const struct solver_faces *faces);
-void solver_faces_hold(const struct solver_faces *faces, double t, struct solver_vectors v, size_t begin, size_t end);
+/* The same of particles [begin, end), in a thread, where faces only hold. */
+void solver_faces_hold(const struct solver_faces *faces, struct solver_vectors v, size_t begin, size_t end);
+/* Fills in `only_hold` and `still` from the constraints. */
+bool solver_faces_list_still(struct solver_faces *faces, struct solver_error *error);
 /* Adds tractions and body forces at time t, per unit of reference area and volume, to v_rate; *power [W] becomes their
  * power at velocities v. */
 bool solver_faces_load(struct solver_faces *faces, const struct solver_body *body,

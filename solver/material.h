@@ -83,6 +83,7 @@ struct solver_material {
     /* Operations of one particle's (cost.h), with H and J of its own or those of F. */
     int (*stress_flops)(bool H, bool J);
     int volumetric_flops, stiffness_flops, fastest_flops, energy_flops;
+    int composite_flops; /* what `fastest` takes besides in a composite body */
     /* An upper bound, above zero, of the wave speeds [m/s] in all directions over particles begin to end - 1; exact at
      * rest. */
     double (*fastest)(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,

@@ -1,41 +1,48 @@
 /* Hooke's law, split into deviatoric and volumetric parts:
  *     W = mu e' : e' + kappa/2 (J - 1)^2,   e' = dev sym(F - I),   P = 2 mu e' + kappa (J - 1) I. */
+#define WIDE_LOTS
 #include "solver/dim.h"
 #include "solver/dim_flops.h"
+#include "solver/dim_ranges.h"
 #include "solver/material.h"
 
 #include <math.h>
 
-/* F is [DIM] columns or rows of the given stride: Hooke's law is the same for F and its transpose. */
-static inline double mean_strain(const double *F, int stride)
+/* A lot at a time. J NULL: 1 + tr(F - I) */
+static inline __attribute__((always_inline)) struct tensors hooke(const struct constants *of, const struct tensors *F,
+                                                                  const lot *J)
+{
+    lot sum = F->column[0][0] - 1.0;
+    for (int I = 1; I < DIM; I++) {
+        sum += F->column[I][I] - 1.0;
+    }
+    lot mean = sum / 3.0;
+    lot pressure = of->kappa * (J != NULL ? *J - 1.0 : 3.0 * mean);
+    lot twice = 2.0 * of->mu;
+    struct tensors P;
+    for (int I = 0; I < DIM; I++) {
+        P.column[I][I] = twice * (F->column[I][I] - 1.0 - mean) + pressure;
+        for (int i = 0; i < I; i++) {
+            P.column[I][i] = P.column[i][I] = of->mu * (F->column[I][i] + F->column[i][I]);
+        }
+    }
+    return P;
+}
+
+/* Of rows. */
+static inline double mean_strain(const double *F)
 {
     double sum = 0.0;
     for (int I = 0; I < DIM; I++) {
-        sum += F[I * stride + I] - 1.0;
+        sum += F[I * DIM + I] - 1.0;
     }
     return sum / 3.0;
-}
-
-/* J NULL: 1 + tr(F - I) */
-static inline void hooke(const struct solver_material_constants *material, const double *F, int stride, const double *J,
-                         double *P)
-{
-    double mean = mean_strain(F, stride);
-    double pressure = material->kappa * (J != NULL ? *J - 1.0 : 3.0 * mean);
-    for (int I = 0; I < DIM; I++) {
-        P[I * stride + I] = 2.0 * material->mu * (F[I * stride + I] - 1.0 - mean) + pressure;
-        for (int i = 0; i < I; i++) {
-            double shear = material->mu * (F[I * stride + i] + F[i * stride + I]);
-            P[I * stride + i] = shear;
-            P[i * stride + I] = shear;
-        }
-    }
 }
 
 static double energy(const struct solver_material_constants *material, const double *F, const double *H, double J)
 {
     (void)H;
-    double mean = mean_strain(F, DIM);
+    double mean = mean_strain(F);
     double square = (3 - DIM) * mean * mean;
     for (int i = 0; i < DIM; i++) {
         for (int I = 0; I < DIM; I++) {
@@ -50,12 +57,20 @@ static void stress(const struct solver_material_constants *material, const doubl
                    double *P)
 {
     (void)H;
-    hooke(material, F, DIM, &J, P);
+    struct constants of = constants_of(material, 0);
+    struct tensors at = tensors_of(from_rows(F));
+    lot jacobian = lot_of(J);
+    struct tensors stresses = hooke(&of, &at, &jacobian);
+    for (int i = 0; i < DIM; i++) {
+        for (int I = 0; I < DIM; I++) {
+            P[i * DIM + I] = stresses.column[I][i][0];
+        }
+    }
 }
 
 static double stress_normal(const struct solver_material_constants *material, const double *F, double J)
 {
-    return -2.0 * material->mu * mean_strain(F, DIM) + material->kappa * (J - 1.0);
+    return -2.0 * material->mu * mean_strain(F) + material->kappa * (J - 1.0);
 }
 
 static void tangent(const struct solver_material_constants *material, const double *F, double *A)
@@ -83,13 +98,39 @@ static void wave_speeds(const struct solver_material_constants *material, const 
     }
 }
 
+static inline __attribute__((always_inline)) void stresses_as(const struct solver_material_constants *material,
+                                                              size_t stride, size_t count, const double *F,
+                                                              const double *J, double *P, bool evolved)
+{
+    struct constants here = {.mu = {0}};
+    for (size_t a = 0; a < count; a += LOT) {
+        if (a == 0 || stride != 0) {
+            here = constants_of(material + a * stride, stride);
+        }
+        struct tensors at = load_tensors(F + a * TENSOR_WIDTH);
+        lot jacobian = evolved ? load_lot(J + a) : lot_of(1.0);
+        struct tensors stresses = hooke(&here, &at, evolved ? &jacobian : NULL);
+        store_tensors(P + a * TENSOR_WIDTH, &stresses);
+    }
+}
+
+static __attribute__((noinline)) void stress_of_whole(const struct solver_material_constants *material, size_t stride,
+                                                      size_t count, const double *F, const double *H, const double *J,
+                                                      double *P)
+{
+    (void)H;
+    if (J != NULL) {
+        stresses_as(material, stride, count, F, J, P, true);
+    } else {
+        stresses_as(material, stride, count, F, J, P, false);
+    }
+}
+
 static void stress_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
                          const double *F, const double *H, const double *J, double *P)
 {
-    (void)H;
-    for (size_t a = begin; a < end; a++) {
-        hooke(material + a * stride, F + a * DIM * LANES, LANES, J != NULL ? J + a : NULL, P + a * DIM * LANES);
-    }
+    (void)H; /* none is filled */
+    stress_by_lots(stress_of_whole, material, stride, begin, end, F, NULL, J, P);
 }
 
 static void volumetric_range(const struct solver_material_constants *material, size_t stride, size_t begin, size_t end,
@@ -115,7 +156,7 @@ static int stress_flops(bool H, bool J)
 {
     (void)H;
     (void)J; /* as many for either */
-    return (2 * DIM + 1) + 2 + 5 * DIM + DIM * (DIM - 1);
+    return 2 * DIM + 2 + 1 + 4 * DIM + DIM * (DIM - 1);
 }
 
 const struct solver_material DIM_NAME(solver_linear_elastic) = {

@@ -20,8 +20,8 @@ static bool acts_on_rates(const struct solver_run *run)
 /* Whether more may change the state after a stage's update: the pressure's correction, a wall, a moved face, images. */
 static bool acts_on_state(const struct solver_run *run)
 {
-    return run->scene->incompressible.solver != SOLVER_PRESSURE_NONE || run->wall.count > 0 ||
-           !solver_faces_only_hold(&run->faces) || run->cloud->symmetry != NULL || run->scheme->evaluate != NULL;
+    return run->scene->incompressible.solver != SOLVER_PRESSURE_NONE || run->wall.count > 0 || !run->faces.only_hold ||
+           run->cloud->symmetry != NULL || run->scheme->evaluate != NULL;
 }
 
 int solver_run_wave(const struct solver_run *run, int first)
@@ -289,12 +289,12 @@ static void update(struct sweeping *wave, int s, size_t begin, size_t end)
             update_field(state, &state->field[f], &run->integrator->stage[s], wave->dt, at);
         }
     }
+    if (!run->acts_on_state) {
+        solver_faces_hold(&run->faces, solver_state_v(state), at.begin, at.end);
+    }
     run->scheme->refresh(run->system, at.begin, at.end);
     if (wave->look && s + 1 == run->integrator->stages) {
         look_at(wave, at.begin, at.end);
-    }
-    if (!run->acts_on_state && run->faces.constraint_count > 0) {
-        solver_faces_hold(&run->faces, time_after(run, s, wave->dt), solver_state_v(state), at.begin, at.end);
     }
 }
 

@@ -73,9 +73,10 @@ struct solver_scene_lua {
     size_t bytes;       /* held by the interpreter */
     const char *out_of; /* why the allocator said no, NULL if it never did */
     enum scene_phase phase;
-    int nesting;              /* of functions while freezing */
-    long budget, budget_full; /* instructions left of how many */
-    char doing[SOLVER_TEXT];  /* "initial.velocity at X = (0, 0, 0), t = 0": what a failing formula was asked */
+    int nesting;                        /* of functions while freezing */
+    long budget, budget_full;           /* instructions left of how many */
+    const struct scene_question *asked; /* of a formula that is being evaluated; NULL: none is */
+    char doing[SOLVER_TEXT]; /* "initial.velocity at X = (0, 0, 0), t = 0": what a formula that failed was asked */
     struct solver_error error;
     int values, shown, upvalues;  /* registry references: key -> value; as scripts see it; what formulas captured */
     int formula[SOLVER_FORMULAS]; /* registry references, LUA_NOREF if absent */

@@ -67,6 +67,41 @@ static void set_budget(struct solver_scene_lua *lua, long instructions)
     lua_sethook(lua->L, count_down, LUA_MASKCOUNT, HOOK_STEP);
 }
 
+/* --- what formulas are asked --- */
+
+struct scene_question {
+    enum solver_formula formula;
+    const double *X;
+    double t;
+    size_t count;
+    double value[9]; /* the answer; no formula has more */
+};
+
+static void name_formula(enum solver_formula formula, char *out, size_t size)
+{
+    static const char *const name[] = {"initial.displacement", "initial.velocity", "initial.F",
+                                       "body_force",           "material.at",      "domain.distance"};
+    static const char *const face[] = {"X0", "X1", "Y0", "Y1", "Z0", "Z1", "surface"};
+    if (formula < SOLVER_FACE_X0)
+        snprintf(out, size, "%s", name[formula]);
+    else if (formula < SOLVER_SHEAR_X0)
+        snprintf(out, size, "faces.%s.value", face[formula - SOLVER_FACE_X0]);
+    else
+        snprintf(out, size, "faces.%s.traction", face[formula - SOLVER_SHEAR_X0]);
+}
+
+/* Said only where an answer fails: a body asks thousands of times. */
+static void say_asked(struct solver_scene_lua *lua)
+{
+    const struct scene_question *ask = lua->asked;
+    char name[SOLVER_NAME];
+    if (ask == NULL)
+        return;
+    name_formula(ask->formula, name, sizeof name);
+    snprintf(lua->doing, sizeof lua->doing, "%s at X = (%.6g, %.6g, %.6g), t = %.6g", name, ask->X[0], ask->X[1],
+             ask->X[2], ask->t);
+}
+
 /* --- errors --- */
 
 void scene_refuse(lua_State *L, const char *format, ...)
@@ -83,6 +118,7 @@ void scene_refuse(lua_State *L, const char *format, ...)
     va_start(arguments, format);
     (void)vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    say_asked(lua);
     solver_fail(&lua->error, SOLVER_BAD_INPUT, "%.400s%s: %s%s%s", lua->scene->path, line, lua->doing,
                 lua->doing[0] ? ": " : "", text);
     lua_pushnil(L);
@@ -129,6 +165,7 @@ bool scene_lua_protect(struct solver_scene_lua *lua, lua_CFunction body, void *a
     int status = lua_pcall(L, 1, 0, 0);
     if (status == LUA_OK)
         return true;
+    say_asked(lua);
     const char *path = lua->scene->path, *doing = lua->doing, *colon = doing[0] ? ": " : "";
     const char *said = lua_type(L, -1) == LUA_TSTRING ? lua_tostring(L, -1) : "error without a message";
     if (lua->error.code != SOLVER_OK)
@@ -255,17 +292,9 @@ static void ask_start(const struct solver_scene *scene, enum solver_formula form
     }
 }
 
-struct question {
-    enum solver_formula formula;
-    const double *X;
-    double t;
-    size_t count;
-    double value[9]; /* the answer; no formula has more */
-};
-
 static int call_formula(lua_State *L)
 {
-    struct question *ask = lua_touserdata(L, 1);
+    struct scene_question *ask = lua_touserdata(L, 1);
     struct solver_scene_lua *lua = scene_lua_of(L);
     set_budget(lua, CALL_BUDGET);
     int base = lua_gettop(L);
@@ -277,41 +306,33 @@ static int call_formula(lua_State *L)
     size_t got = (size_t)(lua_gettop(L) - base);
     if (got != ask->count)
         scene_refuse(L, "expected %zu number%s, got %zu", ask->count, ask->count == 1 ? "" : "s", got);
-    for (size_t i = 0; i < got; i++) {
-        char which[32];
-        snprintf(which, sizeof which, "value %zu", i + 1);
-        ask->value[i] = scene_read_number(L, which, base + 1 + (int)i, -DBL_MAX, DBL_MAX, "a number");
-    }
+    static const char *const which[] = {"value 1", "value 2", "value 3", "value 4", "value 5",
+                                        "value 6", "value 7", "value 8", "value 9"};
+    for (size_t i = 0; i < got; i++)
+        ask->value[i] = scene_read_number(L, which[i], base + 1 + (int)i, -DBL_MAX, DBL_MAX, "a number");
     luaL_checkstack(L, 8, "formula");
     scene_globals_check(L);
     return 0;
 }
 
-static void name_formula(enum solver_formula formula, char *out, size_t size)
+static bool refuse_question(const struct solver_scene *scene, const struct scene_question *ask,
+                            struct solver_error *error)
 {
-    static const char *const name[] = {"initial.displacement", "initial.velocity", "initial.F",
-                                       "body_force",           "material.at",      "domain.distance"};
-    static const char *const face[] = {"X0", "X1", "Y0", "Y1", "Z0", "Z1", "surface"};
-    if (formula < SOLVER_FACE_X0)
-        snprintf(out, size, "%s", name[formula]);
-    else if (formula < SOLVER_SHEAR_X0)
-        snprintf(out, size, "faces.%s.value", face[formula - SOLVER_FACE_X0]);
-    else
-        snprintf(out, size, "faces.%s.traction", face[formula - SOLVER_SHEAR_X0]);
+    char name[SOLVER_NAME];
+    name_formula(ask->formula, name, sizeof name);
+    return ask->count > sizeof ask->value / sizeof *ask->value
+               ? solver_fail(error, SOLVER_BAD_INPUT, "%.400s: %s: no formula returns %zu numbers", scene->path, name,
+                             ask->count)
+               : solver_fail(error, SOLVER_BAD_INPUT, "%.400s: %s: the scene gives no such formula", scene->path, name);
 }
 
 bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula formula, const double X[3], double t,
                        double *out, size_t count, struct solver_error *error)
 {
     struct solver_scene_lua *lua = scene->lua;
-    char name[SOLVER_NAME];
-    name_formula(formula, name, sizeof name);
-    struct question ask = {formula, X, t, count, {0}};
-    if (count > sizeof ask.value / sizeof *ask.value)
-        return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: %s: no formula returns %zu numbers", scene->path, name,
-                           count);
-    if (!solver_scene_has(scene, formula))
-        return solver_fail(error, SOLVER_BAD_INPUT, "%.400s: %s: the scene gives no such formula", scene->path, name);
+    struct scene_question ask = {formula, X, t, count, {0}};
+    if (count > sizeof ask.value / sizeof *ask.value || !solver_scene_has(scene, formula))
+        return refuse_question(scene, &ask, error);
     if (scene->start != NULL && formula <= SOLVER_INITIAL_F) {
         ask_start(scene, formula, X, out);
         return true;
@@ -322,8 +343,9 @@ bool solver_scene_eval(const struct solver_scene *scene, enum solver_formula for
         memcpy(out, value, count * sizeof *out);
         return true;
     }
-    snprintf(lua->doing, sizeof lua->doing, "%s at X = (%.6g, %.6g, %.6g), t = %.6g", name, X[0], X[1], X[2], t);
+    lua->asked = &ask;
     bool good = scene_lua_protect(lua, call_formula, &ask, error);
+    lua->asked = NULL;
     lua->doing[0] = '\0';
     if (good)
         memcpy(out, ask.value, count * sizeof *out);

@@ -1,44 +1,72 @@
 #include "solver/single.h"
 
-#include "solver/dim.h"
+#define WIDE_LOTS
+#include "solver/dim_lots.h"
 
 #include <stdbool.h>
 #include <string.h>
 
-/* A stage of LANES numbers. */
-static inline __attribute__((always_inline)) void update_lanes(float *U, const float *start, const float *rate,
-                                                               float *sum, const struct solver_stage *stage, double dt,
-                                                               bool begins)
+/* LOT numbers of single precision, anywhere. */
+typedef float lot_floats __attribute__((vector_size(LOT * sizeof(float)), aligned(sizeof(float))));
+
+/* GCC 12 makes __builtin_convertvector of several conversions of two. */
+static inline lot load_lot_floats(const float *from)
 {
-    vec from = load_floats(start);
-    vec R = load_floats(rate);
-    vec change = stage->rate * R;
-    vec kept = from;
+#if defined LOT_OF_EIGHT
+    return _mm512_cvtps_pd((__m256) * (const lot_floats *)from);
+#elif defined __AVX__
+    return _mm256_cvtps_pd((__m128) * (const lot_floats *)from);
+#else
+    return __builtin_convertvector(*(const lot_floats *)from, lot);
+#endif
+}
+
+static inline void store_lot_floats(float *to, lot value)
+{
+#if defined LOT_OF_EIGHT
+    *(lot_floats *)to = (lot_floats)_mm512_cvtpd_ps(value);
+#elif defined __AVX__
+    *(lot_floats *)to = (lot_floats)_mm256_cvtpd_ps(value);
+#else
+    *(lot_floats *)to = __builtin_convertvector(value, lot_floats);
+#endif
+}
+
+/* A stage of LOT numbers. */
+static inline __attribute__((always_inline)) void update_lot(float *U, const float *start, const float *rate,
+                                                             float *sum, const struct solver_stage *stage, double dt,
+                                                             bool begins)
+{
+    lot from = load_lot_floats(start);
+    lot R = load_lot_floats(rate);
+    lot change = stage->rate * R;
+    lot kept = from;
     if (!begins) {
-        kept += stage->keep * (load_floats(U) - from);
+        kept += stage->keep * (load_lot_floats(U) - from);
     }
     if (sum != NULL) {
-        vec S = stage->accumulate * R;
+        lot S = stage->accumulate * R;
         if (!begins) {
-            vec before = load_floats(sum);
+            lot before = load_lot_floats(sum);
             change += stage->sum * before;
             S += before;
         }
-        store_floats(sum, S);
+        store_lot_floats(sum, S);
     }
-    store_floats(U, kept + dt * change);
+    store_lot_floats(U, kept + dt * change);
 }
 
 static inline __attribute__((always_inline)) void update_all(float *U, const float *start, const float *rate,
-                                                             float *sum, size_t count, const struct solver_stage *stage,
+                                                             float *sum, size_t count, const struct solver_stage *of,
                                                              double dt, bool begins)
 {
+    const struct solver_stage stage = *of; /* which no number that is stored may be */
     size_t i = 0;
-    for (; i + LANES <= count; i += LANES) {
-        update_lanes(U + i, start + i, rate + i, sum != NULL ? sum + i : NULL, stage, dt, begins);
+    for (; i + LOT <= count; i += LOT) {
+        update_lot(U + i, start + i, rate + i, sum != NULL ? sum + i : NULL, &stage, dt, begins);
     }
-    if (i < count) { /* fewer than LANES are left */
-        float rest[4][LANES] = {{0}};
+    if (i < count) { /* fewer than LOT are left */
+        float rest[4][LOT] = {{0}};
         size_t size = (count - i) * sizeof(float);
         memcpy(rest[0], U + i, size);
         memcpy(rest[1], start + i, size);
@@ -46,7 +74,7 @@ static inline __attribute__((always_inline)) void update_all(float *U, const flo
         if (sum != NULL) {
             memcpy(rest[3], sum + i, size);
         }
-        update_lanes(rest[0], rest[1], rest[2], sum != NULL ? rest[3] : NULL, stage, dt, begins);
+        update_lot(rest[0], rest[1], rest[2], sum != NULL ? rest[3] : NULL, &stage, dt, begins);
         memcpy(U + i, rest[0], size);
         if (sum != NULL) {
             memcpy(sum + i, rest[3], size);
@@ -83,6 +111,7 @@ static void narrow(const double *restrict from, float *restrict to, size_t count
     }
 }
 
+#if DIM == 3
 static void widen_measures(const float *from, double *to, size_t count)
 {
     struct tensor one = identity();
@@ -104,6 +133,49 @@ static void narrow_measures(const double *from, float *to, size_t count)
         }
     }
 }
+#else
+enum { TENSOR = DIM * LANES };
+_Static_assert(LOT % TENSOR == 0, "whole tensors fill a lot");
+
+/* Of the identity, entry i of tensors that follow each other. */
+static inline double one_at(size_t i)
+{
+    return i % TENSOR % (LANES + 1) == 0 ? 1.0 : 0.0;
+}
+
+static inline lot identities(void)
+{
+    lot one = {0};
+    for (size_t k = 0; k < LOT; k++) {
+        one[k] = one_at(k);
+    }
+    return one;
+}
+
+static void widen_measures(const float *from, double *to, size_t count)
+{
+    lot one = identities();
+    size_t i = 0;
+    for (; i + LOT <= count * TENSOR; i += LOT) {
+        store_lot(to + i, load_lot_floats(from + i) + one);
+    }
+    for (; i < count * TENSOR; i++) {
+        to[i] = (double)from[i] + one_at(i);
+    }
+}
+
+static void narrow_measures(const double *from, float *to, size_t count)
+{
+    lot one = identities();
+    size_t i = 0;
+    for (; i + LOT <= count * TENSOR; i += LOT) {
+        store_lot_floats(to + i, load_lot(from + i) - one);
+    }
+    for (; i < count * TENSOR; i++) {
+        to[i] = (float)(from[i] - one_at(i));
+    }
+}
+#endif
 
 const struct solver_single_loops DIM_NAME(solver_single) = {
     .update = update,

@@ -187,15 +187,12 @@ void solver_state_arrays(const struct solver_state *state, struct solver_cost_ar
 void solver_state_terms(const struct solver_state *state, const struct solver_integrator *integrator,
                         struct solver_cost_terms *terms)
 {
-    /* run_step.c, update_slice: of an entry in the first stage and in later ones */
+    /* run_stages.c, update_entries: of an entry in the first stage and in later ones */
     double first = integrator->needs_sum ? 4 : 3;
     double later = integrator->needs_sum ? 10 : 6;
     double entries = 0.0;
     for (size_t i = 0; i < state->field_count && state->field[i].evolved; i++) {
-        size_t numbers = state->count * state->field[i].width;
-        size_t at_once = state->in_single ? state->lanes : 1; /* single_dim.c */
-        size_t counted = (numbers + at_once - 1) / at_once * at_once;
-        entries += (double)counted;
+        entries += (double)(state->count * state->field[i].width);
     }
     solver_cost_once(terms, "stages of the integrator", entries * (first + later * (double)(integrator->stages - 1)));
 }

@@ -1,3 +1,4 @@
+#define WIDE_LOTS
 #include "solver/upwind.h"
 
 #include "solver/dim_aligned.h"
@@ -6,6 +7,10 @@
 #include "solver/dim_pairs.h"
 #include "solver/dim_sums.h"
 #include "solver/dim_upwind_terms.h"
+#ifndef SINGLE
+#include "solver/dim_cofactors.h"
+#include "solver/dim_whole.h"
+#endif
 
 #include <math.h>
 
@@ -354,9 +359,7 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end)
 static void stresses(const struct solver_upwind *work, size_t begin, size_t end)
 {
     if (work->cofactor != NULL && !work->evolves_H) {
-        for (size_t a = begin; a < end; a++) {
-            store_tensor(work->cofactor + a * TENSOR, cofactor(load_tensor(work->F + a * TENSOR)));
-        }
+        cofactor_range(work->F + begin * TENSOR, end - begin, work->cofactor + begin * TENSOR);
     }
     if (work->pressure != NULL) {
         work->material->volumetric_range(work->constants, work->stride, begin, end, work->J, work->pressure);
@@ -371,25 +374,6 @@ static void stresses(const struct solver_upwind *work, size_t begin, size_t end)
         work->material->stress_range(work->constants, work->stride, begin, end, work->F, work->cofactor, work->J,
                                      work->P);
     }
-}
-
-static size_t first_broken(const struct solver_upwind *work, size_t begin, size_t end)
-{
-    for (size_t a = begin; a < end; a++) {
-        vec v = load(work->v + a * LANES);
-        struct tensor F = load_tensor(work->F + a * TENSOR);
-        vec squares = v * v;
-        for (int I = 0; I < DIM; I++) {
-            squares += F.column[I] * F.column[I];
-        }
-        bool evolved = work->J != NULL && !work->constrained;
-        double J = evolved ? work->J[a] : work->frozen ? 1.0 : determinant(F);
-        bool inverted = !work->frozen && !(J > 0.0);
-        if (inverted || !isfinite(J) || !isfinite(sum_of(squares))) {
-            return a;
-        }
-    }
-    return end;
 }
 
 static void measures(bool linear, size_t begin, size_t end, const double *F, double *H, double *J)
