@@ -294,7 +294,7 @@ static inline __attribute__((always_inline)) struct sums sum_lines(const struct 
         add_line(work, group, &line, each, terms, 2, &own, &sums);
     }
     many volume = component_of(sums.volume, 0);
-    for (int t = 1; t < TURNS; t++) {
+    for (int t = 1; terms.volume && t < TURNS; t++) {
         volume += component_of(sums.volume, t);
     }
     return (struct sums){

@@ -20,10 +20,26 @@ static inline __attribute__((always_inline)) many gather_many(const real *field,
     return *(const many_anywhere *)(field + at[0]);
 }
 
+/* Numbers of particles, in turn, in the lanes of each: by doubling, as GCC 12 takes wider steps through memory. */
+static inline wide from_twos(many first, many second)
+{
+#if DIM == 1
+    (void)second;
+    return (wide)first;
+#else
+    typedef real two_each __attribute__((vector_size(2 * sizeof(many))));
+    two_each both = __builtin_shufflevector(first, second, EACH_OF_TWOS(FROM_TWOS));
+#if DIM == 2
+    return (wide)both;
+#else
+    return __builtin_shufflevector(both, both, EACH_LANE(TWICE));
+#endif
+#endif
+}
+
 static inline __attribute__((always_inline)) wide gather_scalars(const real *field, const size_t at[PLACES])
 {
-    many each = gather_many(field, at);
-    return __builtin_shufflevector(each, each, EACH_LANE(OF_PARTICLE));
+    return from_twos(gather_many(field, at), gather_many(field, at));
 }
 
 static inline __attribute__((always_inline)) void scatter(real *field, size_t stride, const size_t at[PLACES], wide a)
@@ -90,8 +106,8 @@ static inline size_t place(const size_t at[PLACES], int g)
 /* Numbers of a scalar field at the neighbours of pairs. */
 static inline __attribute__((always_inline)) wide gather_in_turn(const real *field, const size_t *const at[TURNS])
 {
-#if defined ABREAST && DIM > 1
-    return __builtin_shufflevector(gather_many(field, at[0]), gather_many(field, at[1]), EACH_LANE(OF_TURN));
+#ifdef ABREAST
+    return from_twos(gather_many(field, at[0]), gather_many(field, at[TURNS - 1]));
 #else
     wide of[TURNS];
     for (int k = 0; k < TURNS; k++) {

@@ -51,13 +51,17 @@ typedef real many __attribute__((vector_size(GROUP * sizeof(real))));
 #define LIST_8(f)  LIST_4(f), f(4), f(5), f(6), f(7)
 #define LIST_16(f) LIST_8(f), f(8), f(9), f(10), f(11), f(12), f(13), f(14), f(15)
 #if GROUP == 1
-#define EACH_PART LIST_1
+#define EACH_PART    LIST_1
+#define EACH_OF_TWOS LIST_2
 #elif GROUP == 2
-#define EACH_PART LIST_2
+#define EACH_PART    LIST_2
+#define EACH_OF_TWOS LIST_4
 #elif GROUP == 4
-#define EACH_PART LIST_4
+#define EACH_PART    LIST_4
+#define EACH_OF_TWOS LIST_8
 #elif GROUP == 8
-#define EACH_PART LIST_8
+#define EACH_PART    LIST_8
+#define EACH_OF_TWOS LIST_16
 #else
 #define EACH_PART LIST_16
 #endif
@@ -90,8 +94,8 @@ enum { WIDTH = GROUP * LANES };
 #define IN_TURN_0(i)       ((i) % 2 == 0 ? OF_PART_0(i) : WIDTH + OF_PART_0(i))
 #define IN_TURN_1(i)       ((i) % 2 == 0 ? OF_PART_1(i) : WIDTH + OF_PART_1(i))
 #define IN_TURN_2(i)       ((i) % 2 == 0 ? OF_PART_2(i) : WIDTH + OF_PART_2(i))
-#define OF_PARTICLE(i)     ((i) / LANES)
-#define OF_TURN(i)         ((i) / LANES + ((i) % 2 == 0 ? 0 : GROUP))
+#define FROM_TWOS(i)       ((i) / 2 + (i) % 2 * GROUP)
+#define TWICE(i)           ((i) / 4 * 2 + (i) % 2)
 #define COLUMN_0(i)        ((i) / 2 * 4 + (i) % 2)
 #define COLUMN_1(i)        ((i) / 2 * 4 + 2 + (i) % 2)
 #define LOW_OF_COLUMNS(i)  ((i) / 2 % 2 * WIDTH + (i) / 4 * 2 + (i) % 2)

@@ -44,19 +44,20 @@ static inline void aligned_gradient_terms(const struct solver_upwind *work, size
 
 static inline void gradient_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
 {
-    if (aligns_gradients(work)) {
-        aligned_gradient_terms(work, count, terms);
-        return;
-    }
     double pairs = (double)work->row[count];
     double particles = (double)count;
     double of_vector = pairs * (LANES + FLOPS_ADD_SCALED) + particles * JOIN;
     bool own = work->least_squares != NULL;
-    solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (2.0 * LANES + FLOPS_TENSOR));
+    bool aligned = aligns_gradients(work);
+    if (aligned) {
+        aligned_gradient_terms(work, count, terms);
+    } else {
+        solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (2.0 * LANES + FLOPS_TENSOR));
+    }
     if (work->v_gradient != NULL) {
         solver_cost_term(terms, "gradient of v by least squares", 1, of_vector);
     }
-    if (work->pressure_gradient != NULL) {
+    if (work->pressure_gradient != NULL && !aligned) {
         solver_cost_term(terms, own ? "gradient of U'(J) by least squares" : "gradient of U'(J)", 1,
                          pairs * 3.0 * LANES + (own ? 0.0 : particles * LANES));
     }
@@ -121,7 +122,7 @@ static inline void aligned_rate_terms(const struct solver_upwind *work, size_t c
     double of_axes = particles * DIM * vector; /* a vector for each axis */
     double turns = turns_of_lines(work, count);
     bool turned = !work->frozen;
-    double along = turned ? (IN_SINGLE ? 5.0 : 3.0) * vector : 0.0;
+    double along = turned ? (IN_SINGLE ? 4.0 : 3.0) * vector : 0.0;
     double normal = turned ? 2.0 * FLOPS_DOTS_IN_TURN + (work->evolves_J ? 3.0 : 2.0) * vector : 0.0;
     solver_cost_term(terms, "internal force", 2, pairs * 2.0 * vector + of_axes);
     solver_cost_term(terms, "dissipation of p", 2,
