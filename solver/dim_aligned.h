@@ -4,98 +4,37 @@
 #ifndef SOLVER_DIM_ALIGNED_H
 #define SOLVER_DIM_ALIGNED_H
 
-#include "solver/dim_fluxes.h"
+#include "solver/dim_inverse_root.h"
+#include "solver/dim_lines.h"
+#include "solver/dim_plain.h"
+#include "solver/dim_sums.h"
+#include "solver/dim_terms.h"
+#include "solver/upwind_abreast.h"
 
-#include <string.h>
-
-/* Pairs of the particles of a group along one axis. */
-struct line {
-    size_t first[GROUP], end[GROUP];
-    size_t shortest, longest;
-};
-
-/* Those along I, which follow those along I - 1; `each` as below. */
-static inline __attribute__((always_inline)) void next_line(const struct solver_upwind *work, const struct group *group,
-                                                            int I, size_t each, struct line *line)
-{
-    line->shortest = each > 0 ? each : SIZE_MAX;
-    line->longest = each;
-    for (int g = 0; g < GROUP; g++) {
-        size_t count = each > 0 ? each : work->along[group->at[g] * LANES + (size_t)I];
-        line->first[g] = I == 0 ? group->row[g] : line->end[g];
-        line->end[g] = line->first[g] + count;
-        line->shortest = count < line->shortest ? count : line->shortest;
-        line->longest = count > line->longest ? count : line->longest;
-    }
-}
-
-/* Away from the ends of lines, rows of sbp2 have two pairs along each axis: a loop that knows is shorter. */
-enum { INNER = 2 };
-
-/* Whether those of a group have. */
-static inline __attribute__((always_inline)) bool are_inner(const struct solver_upwind *work, const struct group *group)
-{
-    static const uint8_t inner[4] = {INNER, DIM > 1 ? INNER : 0, DIM > 2 ? INNER : 0};
-    bool all = true;
-    for (int g = 0; g < GROUP; g++) {
-        all = all && memcmp(work->along + group->at[g] * LANES, inner, LANES) == 0;
-    }
-    return all;
-}
-
-/* The k-th pair of each, or beyond a line's end the last of the row, idle. */
-static inline __attribute__((always_inline)) struct pairs
-line_pairs(const struct solver_upwind *work, const struct group *group, const struct line *line, size_t k, bool idle)
-{
-    struct pairs pairs;
-    for (int g = 0; g < GROUP; g++) {
-        size_t ab = line->first[g] + k;
-        pairs.idle[g] = idle && ab >= line->end[g];
-        pairs.ab[g] = pairs.idle[g] ? group->last[g] : ab;
-        pairs.record[g] = pairs.ab[g] + group->shift[g];
-        pairs.b[g] = work->neighbour[pairs.ab[g]];
-    }
-    return pairs;
-}
-
-/* A number of the pairs' records: I of C_ab along I, DIM the face measure. */
-static inline __attribute__((always_inline)) wide of_record(const struct solver_upwind *work, const struct pairs *pairs,
-                                                            int I, bool narrow)
-{
-    real each[GROUP];
-    for (int g = 0; g < GROUP; g++) {
-        size_t at = pairs->record[g] * PAIR + (size_t)I;
-        real number = narrow ? (real)work->narrow[at] : (real)work->pair[at];
-        each[g] = pairs->idle[g] ? (real)0.0 : number;
-    }
-    return join_each(each);
-}
-
-/* Component I of vectors, in every lane. */
-static inline __attribute__((always_inline)) wide gather_component(const real *field, int I, const size_t at[GROUP])
-{
-    real each[GROUP];
-    for (int g = 0; g < GROUP; g++) {
-        each[g] = field[at[g] * LANES + (size_t)I];
-    }
-    return join_each(each);
-}
+/* Of particles that are abreast. */
+extern const struct solver_abreast_loops DIM_NAME(solver_abreast);
 
 /* --- gradients --- */
 
-/* Of v and, if asked for, of U'(J), in every lane: what a particle has of them, or sums along an axis. */
+/* Of v and, if asked for, of U'(J): what a particle has of them, in every lane, or sums along an axis, the second in
+ * turn. */
 struct aligned_fields {
     wide v, pressure;
 };
 
-static inline __attribute__((always_inline)) void add_slope(const struct solver_upwind *work, const struct pairs *pairs,
-                                                            int I, const struct aligned_fields *own, bool pressure,
-                                                            bool narrow, struct aligned_fields *sums)
+static inline __attribute__((always_inline)) void add_slopes(const struct solver_upwind *work, const struct turn *turn,
+                                                             int I, const struct aligned_fields *own, bool pressure,
+                                                             bool narrow, struct aligned_fields *sums)
 {
-    wide C = of_record(work, pairs, I, narrow);
-    sums->v += (gather(work->v, LANES, pairs->b) - own->v) * C;
+    wide C[TURNS];
+    for (int t = 0; t < TURNS; t++) {
+        C[t] = of_record(work, turn, t, I, narrow);
+    }
+    for (int t = 0; t < turn->count; t++) {
+        sums->v += (gather(work->v, LANES, turn->b[t]) - own->v) * C[t];
+    }
     if (pressure) {
-        sums->pressure += (gather_scalars(work->pressure, pairs->b) - own->pressure) * C;
+        sums->pressure += (gather_in_turn(work->pressure, turn->b) - own->pressure) * in_turn(C);
     }
 }
 
@@ -105,22 +44,30 @@ sum_slopes(const struct solver_upwind *work, const struct group *group, struct l
            const struct aligned_fields *own, bool pressure, bool narrow)
 {
     struct aligned_fields sums = {.pressure = {0}};
-    size_t k = 0;
     next_line(work, group, I, each, line);
-    for (; k < line->shortest; k++) {
-        struct pairs pairs = line_pairs(work, group, line, k, false);
-        add_slope(work, &pairs, I, own, pressure, narrow, &sums);
-    }
-    for (; GROUP > 1 && k < line->longest; k++) {
-        struct pairs pairs = line_pairs(work, group, line, k, true);
-        add_slope(work, &pairs, I, own, pressure, narrow, &sums);
-    }
+    FOR_TURNS(work, group, line, add_slopes(work, &turn, I, own, pressure, narrow, &sums));
     return sums;
 }
 
+/* 1 / (2 V). */
+struct halves {
+    real per_V[PLACES];
+};
+
+static inline __attribute__((always_inline)) struct halves halves_of(const struct solver_upwind *work,
+                                                                     const size_t at[PLACES])
+{
+    struct halves halves;
+    for (int g = 0; g < PLACES; g++) {
+        halves.per_V[g] = (real)0.5 * ((real)work->unit / (real)work->V[at[g]]);
+    }
+    return halves;
+}
+
 /* `each`: pairs that all lines have, or 0. */
-static inline __attribute__((always_inline)) void
-group_gradients(const struct solver_upwind *work, const struct group *group, size_t each, bool pressure, bool narrow)
+static inline __attribute__((always_inline)) void group_gradients(const struct solver_upwind *work,
+                                                                  const struct group *group, size_t each, bool pressure,
+                                                                  bool narrow, const struct halves *halves)
 {
     struct aligned_fields own = {.v = gather(work->v, LANES, group->at)};
     own.pressure = pressure ? gather_scalars(work->pressure, group->at) : own.v;
@@ -133,12 +80,16 @@ group_gradients(const struct solver_upwind *work, const struct group *group, siz
     if (DIM > 2) {
         sums[2] = sum_slopes(work, group, &line, 2, each, &own, pressure, narrow);
     }
-    wide half_per_V = 0.5 * ((real)work->unit / gather_each(work->V, 1, group->at));
+    wide half_per_V = join_each(halves->per_V);
+    wide of_v[DIM];
     wide of_pressure = {0};
     for (int I = 0; I < DIM; I++) {
-        scatter(work->F_rate + I * LANES, TENSOR, group->at, sums[I].v * half_per_V);
-        of_pressure = put_component(of_pressure, sums[I].pressure, I);
+        of_v[I] = sums[I].v * half_per_V;
+        if (pressure) {
+            of_pressure = put_component(of_pressure, over_turns(sums[I].pressure), I);
+        }
     }
+    scatter_columns(work->F_rate, group->at, of_v);
     if (pressure) {
         scatter(work->pressure_gradient, LANES, group->at, half_per_V * of_pressure);
     }
@@ -148,13 +99,17 @@ group_gradients(const struct solver_upwind *work, const struct group *group, siz
 static inline __attribute__((always_inline)) void aligned_gradients_with(const struct solver_upwind *work, size_t begin,
                                                                          size_t end, bool pressure, bool narrow)
 {
+    struct halves halves;
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
+        if (!SAME_SCALES || a == begin) {
+            halves = halves_of(work, group.at);
+        }
         if (are_inner(work, &group)) {
-            group_gradients(work, &group, INNER, pressure, narrow);
+            group_gradients(work, &group, INNER, pressure, narrow, &halves);
         } else {
-            group_gradients(work, &group, 0, pressure, narrow);
+            group_gradients(work, &group, 0, pressure, narrow, &halves);
         }
     }
 }
@@ -178,16 +133,16 @@ static void aligned_gradients(const struct solver_upwind *work, size_t begin, si
 
 /* What the pairs of a group along an axis have in common. */
 struct aligned_side {
-    wide v, x, half_X, slope, cofactor, pressure, pressure_slope;
+    wide v, x, X, half_X, slope, cofactor, pressure, pressure_slope, stiffness;
     struct impedances z;
 };
 
-/* Sums over pairs; of scalars in every lane. */
+/* Sums over pairs. */
 struct aligned_sums {
     wide force;   /* sum_b P_b e_I D_I */
     wide jumps;   /* sum_b A [v] */
     wide normals; /* sum_b A n (n . [v]) */
-    wide volume;  /* sum_b A n^2 [U'] */
+    wide volume;  /* sum_b A n^2 [U'], in turn */
 };
 
 /* Adds what belongs to an axis. */
@@ -195,61 +150,101 @@ static inline __attribute__((always_inline)) void turn_side(const struct solver_
                                                             struct terms terms, int I, struct aligned_side *own)
 {
     if (terms.reconstruct) {
-        own->half_X = (real)0.5 * gather_component(work->X, I, group->at);
-        own->slope = gather(work->F_rate + I * LANES, TENSOR, group->at);
+        own->half_X = (real)0.5 * spread(own->X, I);
+        own->slope = gather_column(work->F_rate, I, group->at);
     }
     if (terms.reconstruct && terms.volume) {
-        own->pressure_slope = gather_component(work->pressure_gradient, I, group->at);
+        own->pressure_slope = spread(gather(work->pressure_gradient, LANES, group->at), I);
     }
     if (terms.volume && !terms.frozen) {
-        own->cofactor = gather(work->cofactor + I * LANES, TENSOR, group->at);
+        own->cofactor = gather_column(work->cofactor, I, group->at);
     }
+}
+
+/* n^2 times the softening (softening of dim_fluxes.h), n^2 = (n . H^Ave N)^2: of the pairs of a turn, whose |along|^2
+ * is the inverse of `inverse`. */
+static inline __attribute__((always_inline)) wide soft_square(const struct solver_upwind *work, const struct turn *turn,
+                                                              int I, const struct aligned_side *own,
+                                                              const wide along[TURNS], wide inverse)
+{
+    wide area[TURNS]; /* twice */
+    for (int t = 0; t < TURNS; t++) {
+        area[t] = t < turn->count ? gather_column(work->cofactor, I, turn->b[t]) + own->cofactor : area[0];
+        if (IN_SINGLE && t < turn->count) {
+            area[t] += along_axis(2, I);
+        }
+    }
+    wide turned = (real)0.5 * dots_in_turn(along, area);
+    wide square = turned * turned * inverse;
+    wide bulk = join_each(own->z.bulk);
+    if (work->stiffness == NULL) {
+        return square * inverse_root(join_each(own->z.shear) + bulk * square);
+    }
+    wide of_b = gather_in_turn(work->stiffness, turn->b);
+    bulk *= larger_of(own->stiffness, of_b);
+    wide soft = square * inverse_root(join_each(own->z.shear) + bulk * square);
+    return only_where((own->stiffness > 0) & (of_b > 0), soft);
 }
 
 /* Where normals n turn with the body (add_fluxes of dim_fluxes.h); returns A n^2, times the softening. */
-static inline __attribute__((always_inline)) wide add_turned(const struct solver_upwind *work,
-                                                             const struct group *group, const struct pairs *pairs,
+static inline __attribute__((always_inline)) wide add_turned(const struct solver_upwind *work, const struct turn *turn,
                                                              struct terms terms, int I, const struct aligned_side *own,
-                                                             wide jump, wide face, struct aligned_sums *sums)
+                                                             const wide jump[TURNS], wide face,
+                                                             struct aligned_sums *sums)
 {
-    wide along = gather(work->x, LANES, pairs->b) - own->x;
-    if (IN_SINGLE) { /* what is stored is displacements */
-        along += gather(work->X, LANES, pairs->b) - gather(work->X, LANES, group->at);
+    wide along[TURNS];
+    for (int t = 0; t < TURNS; t++) {
+        along[t] = t < turn->count ? gather(work->x, LANES, turn->b[t]) - own->x : along[0];
+        if (IN_SINGLE && t < turn->count) { /* what is stored is displacements */
+            along[t] += gather(work->X, LANES, turn->b[t]) - own->X;
+        }
     }
-    wide normal;
-    wide square;
-    spread_dots(along, jump, along, along, &normal, &square);
-    wide by_normal = face / square; /* A / |along|^2 */
-    sums->normals += normal * by_normal * along;
-    if (!terms.volume) {
-        return face;
+    wide square = dots_in_turn(along, along);
+    wide inverse = terms.volume ? (real)1.0 / square : square;
+    wide by_normal = terms.volume ? face * inverse : face / square; /* A / |along|^2 */
+    wide normal = dots_in_turn(along, jump) * by_normal;
+    for (int t = 0; t < turn->count; t++) {
+        sums->normals += of_turn(normal, t) * along[t];
     }
-    wide area = (real)0.5 * (gather(work->cofactor + I * LANES, TENSOR, pairs->b) + own->cofactor);
-    if (IN_SINGLE) {
-        area += unit_along(I);
-    }
-    wide turned = spread_dot(along, area);
-    return by_normal * turned * turned * softening(work, group, pairs, &own->z, turned, square);
+    return terms.volume ? face * soft_square(work, turn, I, own, along, inverse) : face;
 }
 
-static inline __attribute__((always_inline)) void add_along(const struct solver_upwind *work, const struct group *group,
-                                                            const struct pairs *pairs, struct terms terms, int I,
-                                                            const struct aligned_side *own, struct aligned_sums *sums)
+static inline __attribute__((always_inline)) void add_along(const struct solver_upwind *work, const struct turn *turn,
+                                                            struct terms terms, int I, const struct aligned_side *own,
+                                                            struct aligned_sums *sums)
 {
-    wide face = of_record(work, pairs, DIM, terms.narrow);
-    wide jump = gather(work->v, LANES, pairs->b) - own->v;
-    wide back = jump; /* half the distance */
-    if (terms.reconstruct) {
-        back = own->half_X - (real)0.5 * gather_component(work->X, I, pairs->b);
-        jump += back * (gather(work->F_rate + I * LANES, TENSOR, pairs->b) + own->slope);
-    }
-    sums->force += gather(work->P + I * LANES, TENSOR, pairs->b) * of_record(work, pairs, I, terms.narrow);
-    sums->jumps += face * jump;
-    wide by_volume = terms.frozen ? face : add_turned(work, group, pairs, terms, I, own, jump, face, sums);
-    if (terms.volume) {
-        wide difference = gather_scalars(work->pressure, pairs->b) - own->pressure;
+    wide face[TURNS];
+    wide jump[TURNS];
+    wide back[TURNS]; /* half the distance */
+    for (int t = 0; t < TURNS; t++) {
+        face[t] = of_record(work, turn, t, DIM, terms.narrow);
+        if (t >= turn->count) {
+            jump[t] = jump[0];
+            back[t] = back[0];
+            continue;
+        }
+        const size_t *b = turn->b[t];
+        jump[t] = gather(work->v, LANES, b) - own->v;
+        back[t] = jump[t];
         if (terms.reconstruct) {
-            difference += back * (gather_component(work->pressure_gradient, I, pairs->b) + own->pressure_slope);
+            back[t] = own->half_X - (real)0.5 * spread(gather(work->X, LANES, b), I);
+            jump[t] += back[t] * (gather_column(work->F_rate, I, b) + own->slope);
+        }
+        sums->force += gather_column(work->P, I, b) * of_record(work, turn, t, I, terms.narrow);
+        sums->jumps += face[t] * jump[t];
+    }
+    wide by_volume = in_turn(face);
+    if (!terms.frozen) {
+        by_volume = add_turned(work, turn, terms, I, own, jump, by_volume, sums);
+    }
+    if (terms.volume) {
+        wide difference = gather_in_turn(work->pressure, turn->b) - own->pressure;
+        if (terms.reconstruct) {
+            wide slope[TURNS];
+            for (int t = 0; t < TURNS; t++) {
+                slope[t] = gather(work->pressure_gradient, LANES, turn->b[t]);
+            }
+            difference += in_turn(back) * (components_in_turn(slope, I) + own->pressure_slope);
         }
         sums->volume += by_volume * difference;
     }
@@ -261,17 +256,9 @@ static inline __attribute__((always_inline)) void add_line(const struct solver_u
                                                            struct aligned_side *own, struct aligned_sums *sums)
 {
     struct aligned_sums here = {.volume = {0}};
-    size_t k = 0;
     next_line(work, group, I, each, line);
     turn_side(work, group, terms, I, own);
-    for (; k < line->shortest; k++) {
-        struct pairs pairs = line_pairs(work, group, line, k, false);
-        add_along(work, group, &pairs, terms, I, own, &here);
-    }
-    for (; GROUP > 1 && k < line->longest; k++) {
-        struct pairs pairs = line_pairs(work, group, line, k, true);
-        add_along(work, group, &pairs, terms, I, own, &here);
-    }
+    FOR_TURNS(work, group, line, add_along(work, &turn, terms, I, own, &here));
     sums->force += here.force;
     sums->jumps += here.jumps;
     if (terms.volume) {
@@ -285,13 +272,17 @@ static inline __attribute__((always_inline)) void add_line(const struct solver_u
 }
 
 /* Sums of the pairs of each particle of a group. */
-static inline __attribute__((always_inline)) void sum_lines(const struct solver_upwind *work, const struct group *group,
-                                                            size_t each, struct terms terms, struct sums of[GROUP])
+static inline __attribute__((always_inline)) struct sums sum_lines(const struct solver_upwind *work,
+                                                                   const struct group *group, size_t each,
+                                                                   struct terms terms, const struct impedances *z)
 {
-    struct aligned_side own = {.v = gather(work->v, LANES, group->at),
-                               .z = impedances(work, group->at, terms.volume && !terms.frozen)};
+    struct aligned_side own = {.v = gather(work->v, LANES, group->at), .z = *z};
+    bool placed = terms.reconstruct || (IN_SINGLE && !terms.frozen);
     own.x = terms.frozen ? own.v : gather(work->x, LANES, group->at);
+    own.X = placed ? gather(work->X, LANES, group->at) : own.v;
     own.pressure = terms.volume ? gather_scalars(work->pressure, group->at) : own.v;
+    bool stiffens = terms.volume && !terms.frozen && work->stiffness != NULL;
+    own.stiffness = stiffens ? gather_scalars(work->stiffness, group->at) : own.v;
     struct aligned_sums sums = {.volume = {0}};
     struct line line;
     add_line(work, group, &line, each, terms, 0, &own, &sums);
@@ -301,13 +292,12 @@ static inline __attribute__((always_inline)) void sum_lines(const struct solver_
     if (DIM > 2) {
         add_line(work, group, &line, each, terms, 2, &own, &sums);
     }
-    vec forces[GROUP];
-    vec dissipations[GROUP];
-    take_apart(sums.force, forces);
-    take_apart(own.z.s * sums.jumps + (own.z.p - own.z.s) * sums.normals, dissipations);
-    for (int g = 0; g < GROUP; g++) {
-        of[g] = (struct sums){.force = forces[g], .dissipation = dissipations[g], .volume = sums.volume[g * LANES]};
+    many volume = component_of(sums.volume, 0);
+    for (int t = 1; terms.volume && t < TURNS; t++) {
+        volume += component_of(sums.volume, t);
     }
+    return (struct sums){
+        .force = sums.force, .dissipation = z->s * sums.jumps + (z->p - z->s) * sums.normals, .volume = volume};
 }
 
 /* What rates_with of upwind_dim.c does. Neighbours are read as streams, row beside row, and what is asked for ahead of
@@ -315,19 +305,26 @@ static inline __attribute__((always_inline)) void sum_lines(const struct solver_
 static inline __attribute__((always_inline)) void aligned_rates_with(const struct solver_upwind *work, size_t begin,
                                                                      size_t end, struct terms terms)
 {
+    static const size_t first[PLACES]; /* all are of one material */
+    struct impedances z = impedances(work, first, terms.volume && !terms.frozen);
+    struct scales scales;
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
-        struct sums sums[GROUP];
-        if (are_inner(work, &group)) {
-            sum_lines(work, &group, INNER, terms, sums);
-        } else {
-            sum_lines(work, &group, 0, terms, sums);
+        if (!SAME_SCALES || a == begin) {
+            scales = scales_of(work, group.at);
         }
-        for (int g = 0; g < GROUP; g++) {
-            finish(work, group.at[g], sums[g]);
+        if (are_inner(work, &group)) {
+            finish(work, group.at, &scales, sum_lines(work, &group, INNER, terms, &z));
+        } else {
+            finish(work, group.at, &scales, sum_lines(work, &group, 0, terms, &z));
         }
     }
+}
+
+static void aligned_rates(const struct solver_upwind *work, size_t begin, size_t end)
+{
+    plain_rates(work, begin, end, aligned_rates_with);
 }
 
 #endif

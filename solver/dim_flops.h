@@ -11,7 +11,9 @@ enum {
     FLOPS_SPREAD_DOTS = DIM == 3   ? 4 * LANES
                         : DIM == 2 ? 3 * LANES
                                    : 2,
-    FLOPS_SPREAD_DOT = DIM * LANES,
+    FLOPS_DOTS_IN_TURN = DIM == 3   ? 4 * LANES
+                         : DIM == 2 ? 3 * LANES
+                                    : 1,
     FLOPS_TRACE = DIM - 1,
     FLOPS_CONTRACT = (2 * DIM - 1) * LANES + DIM - 1,
     FLOPS_COFACTOR = DIM == 3 ? 9 * LANES : 0, /* in the plane signs and places change */

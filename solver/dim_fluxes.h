@@ -3,37 +3,10 @@
 #define SOLVER_DIM_FLUXES_H
 
 #include "solver/dim_pairs.h"
+#include "solver/dim_sums.h"
+#include "solver/dim_terms.h"
 
 #include <math.h>
-
-/* Impedances of a pair: z v jumps in the acoustic Riemann problem of eq. 27, 28, with 2 z_a z_b / (z_a + z_b) where
- * materials meet. */
-struct impedances {
-    wide p, s;
-    real shear[GROUP], bulk[GROUP]; /* shares of mu and kappa in the square of z_p, at rest */
-};
-
-/* A constant of particles. */
-static inline __attribute__((always_inline)) wide constant(const struct solver_upwind *work, const double *of_first,
-                                                           const size_t at[GROUP])
-{
-    return gather_each(of_first, work->stride * (sizeof *work->constants / sizeof(double)), at);
-}
-
-/* Of particles; with the shares if `shares`. */
-static inline __attribute__((always_inline)) struct impedances impedances(const struct solver_upwind *work,
-                                                                          const size_t at[GROUP], bool shares)
-{
-    struct impedances z = {.p = constant(work, &work->constants->zp, at),
-                           .s = constant(work, &work->constants->zs, at)};
-    for (int g = 0; shares && g < GROUP; g++) {
-        const struct solver_material_constants *of = work->constants + at[g] * work->stride;
-        double modulus = of->zp * of->cp;
-        z.shear[g] = (real)(4.0 / 3.0 * of->mu / modulus);
-        z.bulk[g] = (real)(of->kappa / modulus);
-    }
-    return z;
-}
 
 /* The shares are of `a`. */
 static inline __attribute__((always_inline)) struct impedances meet(struct impedances a, struct impedances b)
@@ -102,11 +75,6 @@ static inline wide traction_jump(const struct solver_upwind *work, const size_t 
     }
     return traction;
 }
-
-/* What the scene asks for, as constants where the sums are called, so that each combination is a loop of its own. */
-struct terms {
-    bool frozen, reconstruct, transposed, volume, whole, composite, narrow;
-};
 
 /* n (n . H^Ave N): what becomes of the unit vector N, not normalised, as the pair's area. */
 static inline __attribute__((always_inline)) wide pair_area(const struct solver_upwind *work, const size_t a[GROUP],
@@ -189,27 +157,22 @@ static inline __attribute__((always_inline)) void add_fluxes(const struct solver
     }
 }
 
-static inline __attribute__((always_inline)) void combine(const struct pair_sums *sums, struct terms terms,
-                                                          struct impedances z, struct sums of[GROUP])
+static inline __attribute__((always_inline)) struct sums combine(const struct pair_sums *sums, struct terms terms,
+                                                                 struct impedances z)
 {
     wide force = sums->force[0];
     for (int I = 1; I < DIM; I++) {
         force += sums->force[I];
     }
     wide dissipation = terms.composite ? sums->jumps + sums->normals : z.s * sums->jumps + (z.p - z.s) * sums->normals;
-    vec forces[GROUP];
-    vec dissipations[GROUP];
-    take_apart(force, forces);
-    take_apart(dissipation, dissipations);
-    for (int g = 0; g < GROUP; g++) {
-        of[g] = (struct sums){.force = forces[g], .dissipation = dissipations[g], .volume = sums->volume[g * LANES]};
-    }
+    many volume = component_of(sums->volume, 0);
     if (terms.volume) {
         wide by_component = terms.whole ? sums->tractions : (real)-0.5 * sums->slopes;
-        for (int i = 0; i < WIDTH; i++) { /* lanes beyond DIM are zero */
-            of[i / LANES].volume += by_component[i];
+        for (int i = 0; i < DIM; i++) {
+            volume += component_of(by_component, i);
         }
     }
+    return (struct sums){.force = force, .dissipation = dissipation, .volume = volume};
 }
 
 #endif

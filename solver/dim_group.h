@@ -6,15 +6,104 @@
 
 #include "solver/dim.h"
 
-/* In space 512 bits for two particles were no faster than 256 for one: what is saved of arithmetic, putting the vectors
- * of two neighbours together takes. */
+#include <string.h>
+
+/* Where particles of a group are anywhere, in space 512 bits for two of them were no faster than 256 for one: what is
+ * saved of arithmetic, putting the vectors of two neighbours together takes. Particles that are abreast (stencil.h)
+ * have consecutive numbers, and so have their neighbours: a load brings a whole register, and one number stands for the
+ * places of all. */
+#define LANES_OF_VEC (DIM == 3 ? 4 : DIM)
+#ifdef __AVX512F__
+#define REGISTER_BYTES 64
+#elif defined __AVX__
+#define REGISTER_BYTES 32
+#else
+#define REGISTER_BYTES 16
+#endif
+#ifdef SINGLE
+#define VEC_BYTES (4 * LANES_OF_VEC)
+#else
+#define VEC_BYTES (8 * LANES_OF_VEC)
+#endif
+#ifdef ABREAST
+#define GROUP (REGISTER_BYTES < VEC_BYTES ? 1 : REGISTER_BYTES / VEC_BYTES)
+#elif !defined GROUP
 #if DIM == 2 && defined __AVX__ && !defined SINGLE
 #define GROUP 2
 #else
 #define GROUP 1
 #endif
+#endif
+#ifdef ABREAST
+enum { PLACES = 1 };
+#else
+enum { PLACES = GROUP };
+#endif
 
 typedef real wide __attribute__((vector_size(GROUP * LANES * sizeof(real))));
+/* One number of each particle. */
+typedef real many __attribute__((vector_size(GROUP * sizeof(real))));
+
+/* Lanes for __builtin_shufflevector: f(i) for each lane i of a wide vector, or for each particle. */
+#define LIST_1(f)  f(0)
+#define LIST_2(f)  f(0), f(1)
+#define LIST_4(f)  LIST_2(f), f(2), f(3)
+#define LIST_8(f)  LIST_4(f), f(4), f(5), f(6), f(7)
+#define LIST_16(f) LIST_8(f), f(8), f(9), f(10), f(11), f(12), f(13), f(14), f(15)
+#if GROUP == 1
+#define EACH_PART    LIST_1
+#define EACH_OF_TWOS LIST_2
+#elif GROUP == 2
+#define EACH_PART    LIST_2
+#define EACH_OF_TWOS LIST_4
+#elif GROUP == 4
+#define EACH_PART    LIST_4
+#define EACH_OF_TWOS LIST_8
+#elif GROUP == 8
+#define EACH_PART    LIST_8
+#define EACH_OF_TWOS LIST_16
+#else
+#define EACH_PART LIST_16
+#endif
+#if GROUP * LANES_OF_VEC == 1
+#define EACH_LANE LIST_1
+#elif GROUP * LANES_OF_VEC == 2
+#define EACH_LANE LIST_2
+#elif GROUP * LANES_OF_VEC == 4
+#define EACH_LANE LIST_4
+#elif GROUP * LANES_OF_VEC == 8
+#define EACH_LANE LIST_8
+#else
+#define EACH_LANE LIST_16
+#endif
+enum { WIDTH = GROUP * LANES };
+#define OF_PART_0(i)       ((i) / LANES * LANES)
+#define OF_PART_1(i)       ((i) / LANES * LANES + 1)
+#define OF_PART_2(i)       ((i) / LANES * LANES + (LANES > 2 ? 2 : 0))
+#define OF_PART_3(i)       ((i) / LANES * LANES + 3)
+#define EVEN(i)            ((i) / 2 * 2)
+#define ODD(i)             ((i) / 2 * 2 + 1)
+#define EVEN_OF_TWO(i)     ((i) % 2 == 0 ? (i) : WIDTH + (i)-1)
+#define ODD_OF_TWO(i)      ((i) % 2 == 0 ? (i) + 1 : WIDTH + (i))
+#define OTHER_HALF(i)      ((i) / 4 * 4 + ((i) + 2) % 4)
+#define OTHER_OF_TWO(i)    ((i) / 2 * 2 + ((i) + 1) % 2)
+#define WITH_0(i)          ((i) % LANES == 0 ? WIDTH + (i) : (i))
+#define WITH_1(i)          ((i) % LANES == 1 ? WIDTH + (i) : (i))
+#define WITH_2(i)          ((i) % LANES == 2 ? WIDTH + (i) : (i))
+#define IN_TURN(i)         ((i) % 2 == 0 ? (i) : WIDTH + (i))
+#define IN_TURN_0(i)       ((i) % 2 == 0 ? OF_PART_0(i) : WIDTH + OF_PART_0(i))
+#define IN_TURN_1(i)       ((i) % 2 == 0 ? OF_PART_1(i) : WIDTH + OF_PART_1(i))
+#define IN_TURN_2(i)       ((i) % 2 == 0 ? OF_PART_2(i) : WIDTH + OF_PART_2(i))
+#define FROM_TWOS(i)       ((i) / 2 + (i) % 2 * GROUP)
+#define TWICE(i)           ((i) / 4 * 2 + (i) % 2)
+#define COLUMN_0(i)        ((i) / 2 * 4 + (i) % 2)
+#define COLUMN_1(i)        ((i) / 2 * 4 + 2 + (i) % 2)
+#define LOW_OF_COLUMNS(i)  ((i) / 2 % 2 * WIDTH + (i) / 4 * 2 + (i) % 2)
+#define HIGH_OF_COLUMNS(i) LOW_OF_COLUMNS((i) + WIDTH)
+#define ITSELF(i)          (i)
+#define FIRST_LANE(g)      ((g)*LANES)
+#define SECOND_LANE(g)     ((g)*LANES + 1)
+#define THIRD_LANE(g)      ((g)*LANES + (LANES > 2 ? 2 : 0))
 
 #if GROUP == 1
 static inline wide join(const vec part[GROUP])
@@ -22,24 +111,14 @@ static inline wide join(const vec part[GROUP])
     return part[0];
 }
 
-static inline wide join_each(const real each[GROUP])
-{
-    return splat(each[0]);
-}
-
 static inline void take_apart(wide a, vec part[GROUP])
 {
     part[0] = a;
 }
-#else
+#elif GROUP == 2 && DIM == 2 && !defined SINGLE
 static inline wide join(const vec part[GROUP])
 {
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(part[0]), part[1], 1);
-}
-
-static inline wide join_each(const real each[GROUP])
-{
-    return _mm256_blend_pd(_mm256_set1_pd(each[0]), _mm256_set1_pd(each[1]), 0xc);
 }
 
 static inline void take_apart(wide a, vec part[GROUP])
@@ -47,30 +126,77 @@ static inline void take_apart(wide a, vec part[GROUP])
     part[0] = _mm256_castpd256_pd128(a);
     part[1] = _mm256_extractf128_pd(a, 1);
 }
+#elif DIM == 3 && GROUP == 2
+static inline wide join(const vec part[GROUP])
+{
+    return __builtin_shufflevector(part[0], part[1], LIST_8(ITSELF));
+}
+
+static inline void take_apart(wide a, vec part[GROUP])
+{
+    part[0] = __builtin_shufflevector(a, a, 0, 1, 2, 3);
+    part[1] = __builtin_shufflevector(a, a, 4, 5, 6, 7);
+}
+#elif DIM == 3
+static inline wide join(const vec part[GROUP])
+{
+    typedef real half __attribute__((vector_size(sizeof(wide) / 2)));
+    half low = __builtin_shufflevector(part[0], part[1], LIST_8(ITSELF));
+    half high = __builtin_shufflevector(part[2], part[3], LIST_8(ITSELF));
+    return __builtin_shufflevector(low, high, LIST_16(ITSELF));
+}
+
+static inline void take_apart(wide a, vec part[GROUP])
+{
+    part[0] = __builtin_shufflevector(a, a, 0, 1, 2, 3);
+    part[1] = __builtin_shufflevector(a, a, 4, 5, 6, 7);
+    part[2] = __builtin_shufflevector(a, a, 8, 9, 10, 11);
+    part[3] = __builtin_shufflevector(a, a, 12, 13, 14, 15);
+}
+#else
+static inline wide join(const vec part[GROUP])
+{
+    wide joined;
+    memcpy(&joined, part, sizeof joined);
+    return joined;
+}
+
+static inline void take_apart(wide a, vec part[GROUP])
+{
+    memcpy(part, &a, sizeof a);
+}
 #endif
 
-/* Lanes for __builtin_shufflevector: f(i) for each lane i of a wide vector. */
-#if DIM == 3 || GROUP == 2
-#define EACH_LANE(f) f(0), f(1), f(2), f(3)
-#elif DIM == 2
-#define EACH_LANE(f) f(0), f(1)
+/* The same number in every lane, and for each particle. */
+#define THE_NUMBER(i) number
+static inline wide wide_of(real number)
+{
+    return (wide){EACH_LANE(THE_NUMBER)};
+}
+
+/* Numbers of the places of a group, in every lane of their parts, and for each particle. */
+#if defined ABREAST || GROUP == 1
+static inline wide join_each(const real each[PLACES])
+{
+    return wide_of(each[0]);
+}
+
+static inline many many_of(const real each[PLACES])
+{
+    real number = each[0];
+    return (many){EACH_PART(THE_NUMBER)};
+}
 #else
-#define EACH_LANE(f) f(0)
+static inline wide join_each(const real each[PLACES])
+{
+    return _mm256_blend_pd(_mm256_set1_pd(each[0]), _mm256_set1_pd(each[1]), 0xc);
+}
+
+static inline many many_of(const real each[PLACES])
+{
+    return (many){each[0], each[1]};
+}
 #endif
-enum { WIDTH = GROUP * LANES };
-#define OF_PART_0(i)    ((i) / LANES * LANES)
-#define OF_PART_1(i)    ((i) / LANES * LANES + 1)
-#define OF_PART_2(i)    ((i) / LANES * LANES + 2)
-#define OF_PART_3(i)    ((i) / LANES * LANES + 3)
-#define EVEN(i)         ((i) / 2 * 2)
-#define ODD(i)          ((i) / 2 * 2 + 1)
-#define EVEN_OF_TWO(i)  ((i) % 2 == 0 ? (i) : WIDTH + (i)-1)
-#define ODD_OF_TWO(i)   ((i) % 2 == 0 ? (i) + 1 : WIDTH + (i))
-#define OTHER_HALF(i)   ((i) / 4 * 4 + ((i) + 2) % 4)
-#define OTHER_OF_TWO(i) ((i) / 2 * 2 + ((i) + 1) % 2)
-#define WITH_0(i)       ((i) % LANES == 0 ? WIDTH + (i) : (i))
-#define WITH_1(i)       ((i) % LANES == 1 ? WIDTH + (i) : (i))
-#define WITH_2(i)       ((i) % LANES == 2 ? WIDTH + (i) : (i))
 
 /* Component I, a constant, in every lane of its part. */
 static inline wide spread(wide a, int I)
@@ -103,27 +229,10 @@ static inline wide put_component(wide whole, wide part, int I)
 #endif
 }
 
-/* The unit vector along axis I, a constant. */
-static inline wide unit_along(int I)
+/* The vector of that length along axis I, a constant. */
+static inline wide along_axis(real length, int I)
 {
-    real each[GROUP];
-    for (int g = 0; g < GROUP; g++) {
-        each[g] = 1;
-    }
-    return put_component((wide){0}, join_each(each), I);
-}
-
-/* a . b of each particle, in every lane of its part. */
-static inline wide spread_dot(wide a, wide b)
-{
-    wide dot = a * b;
-#if DIM > 1
-    dot += __builtin_shufflevector(dot, dot, EACH_LANE(OTHER_OF_TWO));
-#endif
-#if DIM == 3
-    dot += __builtin_shufflevector(dot, dot, EACH_LANE(OTHER_HALF));
-#endif
-    return dot;
+    return put_component((wide){0}, wide_of(length), I);
 }
 
 /* a . b and c . d of each particle, in every lane of its part: half the shuffles of two dots. Lanes beyond DIM are
@@ -146,42 +255,32 @@ static inline void spread_dots(wide a, wide b, wide c, wide d, wide *ab, wide *c
 #endif
 }
 
-/* Vectors of a field, `stride` apart; numbers in every lane of their part, of an array and of a scalar field. */
-static inline __attribute__((always_inline)) wide gather(const real *field, size_t stride, const size_t at[GROUP])
+/* Component I, a constant, of each particle. */
+static inline many component_of(wide a, int I)
 {
-    vec part[GROUP];
-    for (int g = 0; g < GROUP; g++) {
-        part[g] = load(field + at[g] * stride);
-    }
-    return join(part);
+#if DIM == 1
+    (void)I;
+    return (many)a;
+#else
+    return I == 0   ? __builtin_shufflevector(a, a, EACH_PART(FIRST_LANE))
+           : I == 1 ? __builtin_shufflevector(a, a, EACH_PART(SECOND_LANE))
+                    : __builtin_shufflevector(a, a, EACH_PART(THIRD_LANE));
+#endif
 }
 
-static inline __attribute__((always_inline)) wide gather_each(const double *field, size_t stride,
-                                                              const size_t at[GROUP])
+/* All bits of a lane are set, or none: what a comparison gives. */
+typedef __typeof__((wide){0} > (wide){0}) wide_mask;
+
+/* `a` where the mask is set, else 0. */
+static inline wide only_where(wide_mask where, wide a)
 {
-    real each[GROUP];
-    for (int g = 0; g < GROUP; g++) {
-        each[g] = (real)field[at[g] * stride];
-    }
-    return join_each(each);
+    return (wide)(where & (wide_mask)a);
 }
 
-static inline __attribute__((always_inline)) wide gather_scalars(const real *field, const size_t at[GROUP])
+static inline wide larger_of(wide a, wide b)
 {
-    real each[GROUP];
-    for (int g = 0; g < GROUP; g++) {
-        each[g] = field[at[g]];
-    }
-    return join_each(each);
-}
-
-static inline __attribute__((always_inline)) void scatter(real *field, size_t stride, const size_t at[GROUP], wide a)
-{
-    vec part[GROUP];
-    take_apart(a, part);
-    for (int g = 0; g < GROUP; g++) {
-        store(field + at[g] * stride, part[g]);
-    }
+    wide_mask first = a > b;
+    return (wide)((first & (wide_mask)a) | (~first & (wide_mask)b));
 }
 
 #endif

@@ -2,44 +2,86 @@
 #ifndef SOLVER_DIM_SUMS_H
 #define SOLVER_DIM_SUMS_H
 
-#include "solver/dim.h"
-#include "solver/upwind.h"
+#include "solver/dim_gather.h"
+#include "solver/dim_work.h"
 
-enum { TENSOR = DIM * LANES, PAIR = DIM + 1 };
-
-/* Of the pairs of particle a's row, what is added to their numbers for their records. */
-static inline size_t pair_shift(const struct solver_upwind *work, size_t a)
-{
-    return work->shared != NULL ? work->shared[a] - work->row[a] : 0;
-}
-
-/* Sums over the neighbours of one particle, in units of the pair vectors. */
+/* Sums over the neighbours of the particles of a group, in units of the pair vectors. */
 struct sums {
-    vec force;       /* twice the internal force: sum_b P_b D_ab + P_a sum_b C_ab */
-    vec dissipation; /* twice V_a D(p_a) (eq. 30) */
-    real volume;     /* 2 z_p V_a D(J_a) (eq. 30) */
+    wide force;       /* twice the internal force: sum_b P_b D_ab + P_a sum_b C_ab */
+    wide dissipation; /* twice V_a D(p_a) (eq. 30) */
+    many volume;      /* 2 z_p V_a D(J_a) (eq. 30) */
 };
 
-static inline __attribute__((always_inline)) void finish(const struct solver_upwind *work, size_t a, struct sums sums)
+/* What sums are multiplied with: the same for particles abreast. */
+struct scales {
+    real force[PLACES], volume[PLACES];
+};
+
+static inline __attribute__((always_inline)) struct scales scales_of(const struct solver_upwind *work,
+                                                                     const size_t at[PLACES])
 {
-    const struct solver_material_constants *of_a = work->constants + a * work->stride;
-    real per_V = (real)(work->unit / work->V[a]);
+    struct scales scales;
+    for (int g = 0; g < PLACES; g++) {
+        const struct solver_material_constants *of_a = work->constants + at[g] * work->stride;
+        double per_V = work->unit / work->V[at[g]];
+        scales.force[g] = (real)(0.5 * per_V / of_a->rho);
+        scales.volume[g] = work->evolves_J ? (real)(per_V / (2.0 * of_a->zp)) : (real)0.0;
+    }
+    return scales;
+}
+
+/* What dissipation takes of each particle. */
+static inline void note_lost(const struct solver_upwind *work, const size_t at[PLACES], struct sums sums)
+{
+    vec dissipation[GROUP];
+    take_apart(sums.dissipation, dissipation);
+    for (int g = 0; g < GROUP; g++) {
+        size_t a = place(at, g);
+        work->lost[2 * a] = -0.5 * dot(load(work->v + a * LANES), dissipation[g]);
+        work->lost[2 * a + 1] = sums.volume[g] / (2.0 * work->constants[a * work->stride].zp);
+    }
+}
+
+/* The rate of J that is motion alone: H : grad v, or div v where H = I. */
+static inline __attribute__((always_inline)) many compression(const struct solver_upwind *work, const size_t at[PLACES])
+{
+    wide G = gather_column(work->F_rate, 0, at);
+    if (work->frozen) {
+        many sum = component_of(G, 0);
+        for (int I = 1; I < DIM; I++) {
+            sum += component_of(gather_column(work->F_rate, I, at), I);
+        }
+        return sum;
+    }
+    wide products = gather_measure(work->cofactor, 0, at) * G;
+    for (int I = 1; I < DIM; I++) {
+        products += gather_measure(work->cofactor, I, at) * gather_column(work->F_rate, I, at);
+    }
+    many sum = component_of(products, 0);
+    for (int i = 1; i < DIM; i++) {
+        sum += component_of(products, i);
+    }
+    return sum;
+}
+
+/* `scales` are those of the group. */
+static inline __attribute__((always_inline)) void finish(const struct solver_upwind *work, const size_t at[PLACES],
+                                                         const struct scales *scales, struct sums sums)
+{
     for (int I = 0; I < DIM; I++) {
-        sums.force += load(work->P + a * TENSOR + I * LANES) * (real)work->row_sum[a * DIM + (size_t)I];
+        sums.force += gather_column(work->P, I, at) * gather_each(work->row_sum + I, DIM, at);
     }
-    store(work->v_rate + a * LANES, (real)(0.5 * per_V / of_a->rho) * (sums.force + sums.dissipation));
+    scatter(work->v_rate, LANES, at, join_each(scales->force) * (sums.force + sums.dissipation));
     if (work->lost != NULL) {
-        work->lost[2 * a] = -0.5 * dot(load(work->v + a * LANES), sums.dissipation);
-        work->lost[2 * a + 1] = sums.volume / (2.0 * of_a->zp);
+        note_lost(work, at, sums);
     }
-    struct tensor G = load_tensor(work->F_rate + a * TENSOR);
     if (work->evolves_J) {
-        real compression = work->frozen ? trace(G) : contract(load_measure(work->cofactor + a * TENSOR), G);
-        work->J_rate[a] = (real)(compression + sums.volume * per_V / (2.0 * of_a->zp));
+        scatter_many(work->J_rate, at, compression(work, at) + sums.volume * many_of(scales->volume));
     }
-    if (work->evolves_H) {
+    for (int g = 0; work->evolves_H && g < GROUP; g++) {
+        size_t a = place(at, g);
         struct tensor F = work->frozen ? identity() : load_measure(work->F + a * TENSOR);
-        store_tensor(work->H_rate + a * TENSOR, tensor_cross(F, G));
+        store_tensor(work->H_rate + a * TENSOR, tensor_cross(F, load_tensor(work->F_rate + a * TENSOR)));
     }
 }
 

@@ -4,9 +4,13 @@
 #define SOLVER_DIM_UPWIND_TERMS_H
 
 #include "solver/dim_flops.h"
+#include "solver/dim_inverse_root.h"
 #include "solver/upwind.h"
 
-enum { JOIN = FLOPS_TENSOR + LANES }; /* of the sums over every other neighbour */
+enum {
+    JOIN = FLOPS_TENSOR + LANES, /* of the sums over every other neighbour */
+    OVER_TURNS = TURNS - 1
+};
 
 /* Whether loops of dim_aligned.h take the gradients. */
 static inline bool aligns_gradients(const struct solver_upwind *work)
@@ -14,20 +18,46 @@ static inline bool aligns_gradients(const struct solver_upwind *work)
     return work->along != NULL && !(work->pressure_gradient != NULL && work->stride != 0);
 }
 
+/* How many times one or two pairs of a line take turns (dim_group.h). */
+static inline double turns_of_lines(const struct solver_upwind *work, size_t count)
+{
+    size_t turns = 0;
+    for (size_t i = 0; i < count * LANES; i++) {
+        turns += ((size_t)work->along[i] + TURNS - 1) / TURNS;
+    }
+    return (double)turns;
+}
+
+/* Those of dim_aligned.h. */
+static inline void aligned_gradient_terms(const struct solver_upwind *work, size_t count,
+                                          struct solver_cost_terms *terms)
+{
+    double particles = (double)count;
+    double vector = LANES;
+    solver_cost_term(terms, "gradient of v, rate of F", 1,
+                     (double)work->row[count] * 3.0 * vector + particles * (2.0 + FLOPS_TENSOR));
+    if (work->pressure_gradient != NULL) {
+        solver_cost_term(terms, "gradient of U'(J)", 1,
+                         turns_of_lines(work, count) * 3.0 * vector + particles * (DIM * OVER_TURNS + 1.0) * vector);
+    }
+}
+
 static inline void gradient_terms(const struct solver_upwind *work, size_t count, struct solver_cost_terms *terms)
 {
     double pairs = (double)work->row[count];
     double particles = (double)count;
     double of_vector = pairs * (LANES + FLOPS_ADD_SCALED) + particles * JOIN;
-    if (aligns_gradients(work)) {
-        of_vector = pairs * 3.0 * LANES;
-    }
     bool own = work->least_squares != NULL;
-    solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (2.0 * LANES + FLOPS_TENSOR));
+    bool aligned = aligns_gradients(work);
+    if (aligned) {
+        aligned_gradient_terms(work, count, terms);
+    } else {
+        solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (2.0 * LANES + FLOPS_TENSOR));
+    }
     if (work->v_gradient != NULL) {
         solver_cost_term(terms, "gradient of v by least squares", 1, of_vector);
     }
-    if (work->pressure_gradient != NULL) {
+    if (work->pressure_gradient != NULL && !aligned) {
         solver_cost_term(terms, own ? "gradient of U'(J) by least squares" : "gradient of U'(J)", 1,
                          pairs * 3.0 * LANES + (own ? 0.0 : particles * LANES));
     }
@@ -76,7 +106,7 @@ static inline void volume_terms(const struct solver_upwind *work, double pairs, 
     double share = (work->whole_jump ? 4.0 : 5.0) * LANES;
     double jump = (work->whole_jump ? 3.0 * FLOPS_TENSOR + LANES : 0.0) + 3.0 * LANES;
     double slope = work->whole_jump ? DIM * 3.0 * FLOPS_TENSOR : 4.0 * LANES;
-    double sum = (work->whole_jump ? 1.0 : 2.0) * LANES;
+    double sum = DIM + (work->whole_jump ? 0.0 : LANES);
     solver_cost_term(terms, "dissipation of J", 2,
                      particles * sum + pairs * ((turns(work) ? area + share + present : 0.0) + jump) +
                          (work->frozen ? 0.0 : 4.0 * particles));
@@ -90,18 +120,22 @@ static inline void aligned_rate_terms(const struct solver_upwind *work, size_t c
     double particles = (double)count;
     double vector = LANES;
     double of_axes = particles * DIM * vector; /* a vector for each axis */
+    double turns = turns_of_lines(work, count);
     bool turned = !work->frozen;
-    double normal = turned ? (IN_SINGLE ? 6.0 : 5.0) * vector + FLOPS_SPREAD_DOTS : 0.0;
+    double along = turned ? (IN_SINGLE ? 4.0 : 3.0) * vector : 0.0;
+    double normal = turned ? 2.0 * FLOPS_DOTS_IN_TURN + (work->evolves_J ? 3.0 : 2.0) * vector : 0.0;
     solver_cost_term(terms, "internal force", 2, pairs * 2.0 * vector + of_axes);
     solver_cost_term(terms, "dissipation of p", 2,
-                     pairs * (3.0 * vector + normal) + of_axes * (turned ? 2.0 : 1.0) + particles * 4.0 * vector);
+                     pairs * (3.0 * vector + along) + turns * normal + of_axes * (turned ? 2.0 : 1.0) +
+                         particles * 4.0 * vector);
     solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * 5.0 * vector + of_axes : 0.0);
     if (work->evolves_J) {
-        double area = turned ? (IN_SINGLE ? 6.0 : 5.0) * vector + FLOPS_SPREAD_DOT : 0.0;
-        double present = turned ? 6.0 + (work->stiffness != NULL ? 1.0 : 0.0) : 0.0; /* impedance */
+        double area = turned ? (IN_SINGLE ? 2.0 : 1.0) * vector : 0.0;
+        double each = 7.0 + FLOPS_INVERSE_ROOT + (work->stiffness != NULL ? 1.0 : 0.0);
+        double present = turned ? FLOPS_DOTS_IN_TURN + each * vector : 0.0; /* n^2, and impedance */
         solver_cost_term(terms, "dissipation of J", 2,
-                         pairs * (3.0 * vector + area + present) + of_axes + (turned ? 4.0 * particles : 0.0));
-        solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? pairs * 3.0 * vector : 0.0);
+                         pairs * area + turns * (3.0 * vector + present) + of_axes + particles * OVER_TURNS);
+        solver_cost_term(terms, "reconstruction for J", 2, work->reconstruct ? turns * 3.0 * vector : 0.0);
     }
 }
 

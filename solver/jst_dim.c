@@ -1,5 +1,6 @@
 #include "solver/jst.h"
 
+#define GROUP 1 // particles go one by one
 #include "solver/dim_flops.h"
 #include "solver/dim_sums.h"
 
@@ -21,7 +22,7 @@ static inline double fading(const struct solver_upwind *work, const struct solve
     return share < 1.0 ? jst->elastic + (jst->plastic - jst->elastic) * share : jst->plastic;
 }
 
-static void gather(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end)
+static void laplacians(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end)
 {
     for (size_t a = begin; a < end; a++) {
         const struct solver_material_constants *of_a = work->constants + a * work->stride;
@@ -54,7 +55,7 @@ static inline double mean(double of_a, double of_b)
 /* Forces and fluxes of eq. 3.14, summed as finish takes them. */
 static inline struct sums sum_pairs(const struct solver_upwind *work, const struct solver_jst *jst, size_t a)
 {
-    struct sums sums = {.volume = 0.0};
+    struct sums sums = {.volume = {0.0}};
     const struct solver_material_constants *of_a = work->constants + a * work->stride;
     const double *weights = work->transposed != NULL ? work->transposed : work->pair;
     size_t stride = work->transposed != NULL ? DIM : PAIR;
@@ -81,14 +82,16 @@ static inline struct sums sum_pairs(const struct solver_upwind *work, const stru
         }
     }
     sums.dissipation = 2.0 * momentum;
-    sums.volume = 2.0 * of_a->zp * volume;
+    sums.volume = (many){2.0 * of_a->zp * volume};
     return sums;
 }
 
 static void rates(const struct solver_upwind *work, const struct solver_jst *jst, size_t begin, size_t end)
 {
     for (size_t a = begin; a < end; a++) {
-        finish(work, a, sum_pairs(work, jst, a));
+        size_t at[] = {a};
+        struct scales scales = scales_of(work, at);
+        finish(work, at, &scales, sum_pairs(work, jst, a));
     }
 }
 
@@ -112,4 +115,4 @@ static void terms_of(const struct solver_upwind *work, const struct solver_jst *
     }
 }
 
-const struct solver_jst_loops DIM_NAME(solver_jst) = {.gather = gather, .rates = rates, .terms = terms_of};
+const struct solver_jst_loops DIM_NAME(solver_jst) = {.gather = laplacians, .rates = rates, .terms = terms_of};

@@ -2,7 +2,7 @@
 #include "solver/pressure.h"
 
 #include "solver/dim_flops.h"
-#include "solver/dim_sums.h"
+#include "solver/dim_work.h"
 
 #include <math.h>
 

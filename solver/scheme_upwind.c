@@ -37,6 +37,7 @@ static void bind_stencil(struct solver_upwind_system *system)
     system->work.pair = stencil->pair;
     system->work.shared = stencil->shared;
     system->work.along = stencil->along;
+    system->work.abreast = stencil->abreast;
     system->work.narrow = stencil->narrow;
     system->work.unit = stencil->unit;
     system->work.transposed = stencil->transposed;
@@ -70,6 +71,7 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     system->residuals = solver_stencil_check(*stencil, cloud);
     return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
            (!align || solver_stencil_align(*stencil, part, error)) && solver_stencil_share(*stencil, error) &&
+           solver_stencil_find_runs(*stencil, error) &&
            (strcmp(scene->precision, "double") == 0 || solver_stencil_narrow(*stencil, error));
 }
 

@@ -63,6 +63,7 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
                                                  .neighbour = base->neighbour,
                                                  .shared = base->shared,
                                                  .along = base->along,
+                                                 .abreast = base->abreast,
                                                  .narrow = base->narrow,
                                                  .unit = base->unit,
                                                  .row_sum = base->row_sum,

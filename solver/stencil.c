@@ -190,6 +190,7 @@ void solver_stencil_free(struct solver_stencil *stencil)
     free(stencil->pair);
     free(stencil->shared);
     free(stencil->along);
+    free(stencil->abreast);
     free(stencil->narrow);
     free(stencil->transposed);
     free(stencil->row_sum);
@@ -253,6 +254,7 @@ void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_c
     solver_cost_array(arrays, group, "rows of pair vectors", stencil->shared, stencil->count, sizeof *stencil->shared);
     solver_cost_array(arrays, group, "pairs along axes", stencil->along, stencil->count * lanes,
                       sizeof *stencil->along);
+    solver_cost_array(arrays, group, "particles abreast", stencil->abreast, stencil->count, sizeof *stencil->abreast);
     solver_cost_array(arrays, group, "transposed", stencil->transposed, stencil->pairs * dim, sizeof(double));
     solver_cost_array(arrays, group, "least squares", stencil->least_squares, stencil->pairs * dim, sizeof(double));
     solver_cost_array(arrays, group, "row sums", stencil->row_sum, stencil->count * dim, sizeof(double));
@@ -272,7 +274,8 @@ size_t solver_stencil_bytes(const struct solver_stencil *stencil)
     size_t per_pair = sizeof *stencil->graph.neighbour + (stencil->transposed != NULL ? dim * sizeof(double) : 0) +
                       (stencil->least_squares != NULL ? dim * sizeof(double) : 0);
     size_t per_particle = sizeof *stencil->graph.row + (stencil->shared != NULL ? sizeof *stencil->shared : 0) +
-                          (stencil->along != NULL ? lanes * sizeof *stencil->along : 0) + (dim + 1) * sizeof(double) +
+                          (stencil->along != NULL ? lanes * sizeof *stencil->along : 0) +
+                          (stencil->abreast != NULL ? sizeof *stencil->abreast : 0) + (dim + 1) * sizeof(double) +
                           (stencil->own != NULL ? sizeof(double) : 0);
     return stencil->records * per_record + stencil->pairs * per_pair + stencil->count * per_particle +
            stencil->face_point_count * sizeof *stencil->face_point;

@@ -33,6 +33,9 @@ struct solver_stencil {
     double unit;      /* [m^(dim-1)]; 1 until then, and row_sum is in its units */
     uint8_t *along;   /* [count][1, 2 or 4] how many pairs of each row lie along each axis, where all do, C_ab as well,
                          and rows are sorted by axis; NULL: some lie along none, or nobody asked */
+    uint8_t *abreast; /* [count] how many particles from each on, 255 at most, are abreast: consecutive, their k-th
+                         neighbours too, with one row of pair vectors and one volume; NULL unless rows are shared and
+                         sorted by axis */
     double *transposed;    /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
     double *row_sum;       /* [count][dim] sum_b C_ab */
     double *least_squares; /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
@@ -80,6 +83,9 @@ bool solver_stencil_align(struct solver_stencil *stencil, const struct solver_cl
 /* Keeps rows of pair vectors that are equal bit for bit once, where that saves three quarters of them, as on lattices
  * of sbp2 from a few hundred particles on; else it leaves all as it is. Before pairs are narrowed. */
 bool solver_stencil_share(struct solver_stencil *stencil, struct solver_error *error);
+/* Finds particles that are abreast, as in the rows of a lattice: loops take several of them at a time. After rows are
+ * sorted and shared, if they are. */
+bool solver_stencil_find_runs(struct solver_stencil *stencil, struct solver_error *error);
 /* Rounds pairs to single precision. Those that are opposite stay so, and sums of them are taken in double precision, so
  * that forces are equal and opposite to round-off of a double, and divergence and gradient each other's adjoint. Pairs
  * of sbp2, and of sbp4 away from the boundary, are whole multiples of the unit and stay as they are; elsewhere closure

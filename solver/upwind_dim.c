@@ -1,5 +1,6 @@
 #define WIDE_LOTS
 #include "solver/upwind.h"
+#include "solver/upwind_abreast.h"
 
 #include "solver/dim_aligned.h"
 #include "solver/dim_fetch.h"
@@ -7,12 +8,38 @@
 #include "solver/dim_pairs.h"
 #include "solver/dim_sums.h"
 #include "solver/dim_upwind_terms.h"
+#include "solver/dim_weights.h"
 #ifndef SINGLE
 #include "solver/dim_cofactors.h"
 #include "solver/dim_whole.h"
 #endif
 
 #include <math.h>
+
+/* How many particles from a on are abreast, if that is enough for loops of their own; else 0. */
+static inline size_t run_from(const struct solver_upwind *work, size_t a, size_t end)
+{
+    size_t run = work->abreast != NULL ? work->abreast[a] : 0;
+    run = run < end - a ? run : end - a;
+    return run >= DIM_NAME(solver_abreast).least ? run : 0;
+}
+
+typedef void range_loop(const struct solver_upwind *work, size_t begin, size_t end);
+
+/* Loops over particles that are abreast, and over the others. */
+static inline void in_runs(const struct solver_upwind *work, size_t begin, size_t end, range_loop *abreast,
+                           range_loop *apart)
+{
+    size_t next;
+    for (size_t a = begin; a < end; a = next) {
+        size_t run = run_from(work, a, end);
+        next = a + (run > 0 ? run : 1);
+        while (run == 0 && next < end && run_from(work, next, end) == 0) {
+            next++;
+        }
+        (run > 0 ? abreast : apart)(work, a, next);
+    }
+}
 
 /* Gradients of a vector field and, if asked for, of a scalar one, at the particles of a group. */
 struct gradients {
@@ -129,8 +156,9 @@ static inline __attribute__((always_inline)) void gradients_with(const struct so
         struct gradients G =
             sum_gradients(work, &group, work->v, pressure ? work->pressure : NULL, narrow ? NARROW : WIDE, composite);
         for (int I = 0; I < DIM; I++) {
-            scatter(work->F_rate + I * LANES, TENSOR, group.at, G.of_vector[I] * half_per_V);
+            G.of_vector[I] *= half_per_V;
         }
+        scatter_columns(work->F_rate, group.at, G.of_vector);
         if (pressure) {
             store_slope(work, &group, half_per_V * G.of_scalar);
         }
@@ -144,9 +172,7 @@ static void least_squares_gradients(const struct solver_upwind *work, size_t beg
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
         struct gradients G = sum_gradients(work, &group, work->v, field, LEAST_SQUARES, work->stride != 0);
-        for (int I = 0; I < DIM; I++) {
-            scatter(work->v_gradient + I * LANES, TENSOR, group.at, G.of_vector[I]);
-        }
+        scatter_columns(work->v_gradient, group.at, G.of_vector);
         if (field != NULL) {
             store_slope(work, &group, G.of_scalar);
         }
@@ -159,7 +185,7 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
     bool pressure = own && work->pressure_gradient != NULL;
     bool narrow = work->narrow != NULL;
     if (aligns_gradients(work)) {
-        aligned_gradients(work, begin, end);
+        in_runs(work, begin, end, DIM_NAME(solver_abreast).gradients, aligned_gradients);
     } else if (pressure && work->stride != 0) { /* rare: not worth a loop each */
         gradients_with(work, begin, end, true, narrow, true);
     } else if (narrow && pressure) {
@@ -269,8 +295,8 @@ static inline __attribute__((always_inline)) void add_pairs(const struct solver_
 }
 
 /* Sums of the pairs of each particle of a group. */
-static inline __attribute__((always_inline)) void sum_pairs(const struct solver_upwind *work, const struct group *group,
-                                                            size_t last, struct terms terms, struct sums of[GROUP])
+static inline __attribute__((always_inline)) struct sums
+sum_pairs(const struct solver_upwind *work, const struct group *group, size_t last, struct terms terms)
 {
     struct pair_sums sums = {.volume = {0}};
     const real *slope = work->v_gradient != NULL ? work->v_gradient : work->F_rate;
@@ -280,56 +306,29 @@ static inline __attribute__((always_inline)) void sum_pairs(const struct solver_
     for (; k < group->shortest; k++) {
         struct pairs pairs = pairs_of(work, group, k, false);
         if (work->far) {
-            fetch(work, slope, &pairs, last);
+            fetch_pairs(work, slope, &pairs, last);
         }
         add_pairs(work, group, &pairs, terms, &own, x, slope, &sums);
     }
     for (; GROUP > 1 && k < group->longest; k++) {
         struct pairs pairs = pairs_of(work, group, k, true);
         if (work->far) {
-            fetch(work, slope, &pairs, last);
+            fetch_pairs(work, slope, &pairs, last);
         }
         add_pairs(work, group, &pairs, terms, &own, x, slope, &sums);
     }
-    combine(&sums, terms, own.z, of);
+    return combine(&sums, terms, own.z);
 }
 
 static inline __attribute__((always_inline)) void rates_with(const struct solver_upwind *work, size_t begin, size_t end,
-                                                             struct terms terms, bool aligned)
+                                                             struct terms terms)
 {
-    if (aligned) {
-        aligned_rates_with(work, begin, end, terms);
-        return;
-    }
     size_t last = work->row[end] > 0 ? work->row[end] - 1 : 0;
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
-        struct sums sums[GROUP];
-        sum_pairs(work, &group, last, terms, sums);
-        for (int g = 0; g < GROUP; g++) {
-            finish(work, group.at[g], sums[g]);
-        }
-    }
-}
-
-/* Plain rates (dim_upwind_terms.h) with linear reconstruction. */
-static inline __attribute__((always_inline)) void plain_rates(const struct solver_upwind *work, size_t begin,
-                                                              size_t end, bool narrow, bool aligned)
-{
-    struct terms terms = {.reconstruct = true, .narrow = narrow};
-    if (work->frozen && !work->evolves_J) {
-        terms.frozen = true;
-        rates_with(work, begin, end, terms, aligned);
-    } else if (work->frozen) {
-        terms.frozen = true;
-        terms.volume = true;
-        rates_with(work, begin, end, terms, aligned);
-    } else if (!work->evolves_J) {
-        rates_with(work, begin, end, terms, aligned);
-    } else {
-        terms.volume = true;
-        rates_with(work, begin, end, terms, aligned);
+        struct scales scales = scales_of(work, group.at);
+        finish(work, group.at, &scales, sum_pairs(work, &group, last, terms));
     }
 }
 
@@ -342,16 +341,12 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end)
                           .whole = work->whole_jump,
                           .composite = work->stride != 0,
                           .narrow = work->narrow != NULL};
-    if (!is_plain(work) || !work->reconstruct) { /* rare: not worth a loop each */
-        rates_with(work, begin, end, terms, aligns_rates(work));
-    } else if (aligns_rates(work) && terms.narrow) {
-        plain_rates(work, begin, end, true, true);
-    } else if (aligns_rates(work)) {
-        plain_rates(work, begin, end, false, true);
-    } else if (terms.narrow) {
-        plain_rates(work, begin, end, true, false);
+    if (aligns_rates(work)) {
+        in_runs(work, begin, end, DIM_NAME(solver_abreast).rates, aligned_rates);
+    } else if (!is_plain(work)) { /* rare: not worth a loop each */
+        rates_with(work, begin, end, terms);
     } else {
-        plain_rates(work, begin, end, false, false);
+        plain_rates(work, begin, end, rates_with);
     }
 }
 

@@ -1,0 +1,8 @@
+/* The loops of upwind_abreast_dim.c in single precision. */
+#include "solver/upwind_abreast.h"
+
+#define SINGLE
+#define solver_upwind        solver_upwind_single
+#define solver_abreast       solver_abreast_single
+#define solver_abreast_loops solver_abreast_single_loops
+#include "solver/upwind_abreast_dim.c" // NOLINT(bugprone-suspicious-include): one source text
