@@ -63,6 +63,8 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     const struct solver_cloud *part = system->body->cloud;
     const struct solver_cloud *cloud = part->symmetry != NULL ? part->symmetry->whole : part;
     bool least_squares = strcmp(scene->reconstruction, "least-squares") == 0;
+    bool in_single = strcmp(scene->precision, "single") == 0;
+    bool runs = align && (scene->dim < 3 || in_single); /* else loops take none: upwind_abreast_dim.c */
     struct solver_stencil **stencil = &system->stencil;
     if (!solver_stencil_create(builder, cloud, scene->support, stencil, error) ||
         (least_squares && !solver_stencil_add_least_squares(*stencil, cloud, error))) {
@@ -71,7 +73,7 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     system->residuals = solver_stencil_check(*stencil, cloud);
     return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
            (!align || solver_stencil_align(*stencil, part, error)) && solver_stencil_share(*stencil, error) &&
-           solver_stencil_find_runs(*stencil, error) &&
+           (!runs || solver_stencil_find_runs(*stencil, error)) &&
            (strcmp(scene->precision, "double") == 0 || solver_stencil_narrow(*stencil, error));
 }
 
