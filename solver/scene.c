@@ -214,8 +214,7 @@ static bool slopes_grow_along_lines(const struct solver_scene *scene)
 {
     bool composite = solver_scene_has(scene, SOLVER_MATERIAL_AT);
     bool fourth = strcmp(scene->stencil, "sbp4") == 0;
-    return strcmp(scene->scheme, "upwind") == 0 && is_along_lines(scene) &&
-           (composite || (fourth && is_graded(scene)));
+    return strcmp(scene->scheme, "upwind") == 0 && is_along_lines(scene) && (composite || (fourth && is_graded(scene)));
 }
 
 /* In single precision places along lines are where particles are, and slopes those that go with them. */
@@ -230,12 +229,14 @@ static void check_lattice_slopes(lua_State *L, const struct solver_scene *scene)
     if (strcmp(scene->reconstruction, "lattice") != 0)
         return;
     if (strcmp(scene->scheme, "upwind") != 0 || !is_along_lines(scene))
-        scene_refuse(L, "reconstruction: lattice is for scheme = \"upwind\" with stencil = \"sbp2\" or \"sbp4\", not %s "
-                        "with %s; expected stencil, least-squares or none",
+        scene_refuse(L,
+                     "reconstruction: lattice is for scheme = \"upwind\" with stencil = \"sbp2\" or \"sbp4\", not %s "
+                     "with %s; expected stencil, least-squares or none",
                      scene->scheme, scene->stencil);
     if (strcmp(scene->precision, "single") == 0 && is_graded(scene))
-        scene_refuse(L, "reconstruction: lattice with a grading is for precision = \"double\" or \"mixed\", not single; "
-                        "expected stencil, least-squares or none");
+        scene_refuse(L,
+                     "reconstruction: lattice with a grading is for precision = \"double\" or \"mixed\", not single; "
+                     "expected stencil, least-squares or none");
 }
 
 static void choose_slopes(lua_State *L, struct solver_scene *scene)

@@ -70,8 +70,9 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     struct solver_stencil **stencil = &system->stencil;
     if (!solver_stencil_create(builder, cloud, scene->support, stencil, error) ||
         (least_squares && !solver_stencil_add_least_squares(*stencil, cloud, error)) ||
-        (by_lattice(scene) && !solver_stencil_add_lattice_slopes(
-                                  *stencil, cloud, system->body->stride != 0 ? system->body->constants : NULL, error))) {
+        (by_lattice(scene) &&
+         !solver_stencil_add_lattice_slopes(*stencil, cloud, system->body->stride != 0 ? system->body->constants : NULL,
+                                            error))) {
         return false;
     }
     system->residuals = solver_stencil_check(*stencil, cloud);
