@@ -23,7 +23,7 @@ static const char *why_not(const struct solver_body *body)
            : body->stride != 0 ? "there is one bulk modulus in a body; take no material.at"
            : strcmp(scene->volume_flux, "pressure") != 0
                ? "only the jump of the pressure is symmetric; take volume_flux = \"pressure\""
-           : strcmp(scene->reconstruction, "least-squares") == 0
+           : strcmp(scene->reconstruction, "least-squares") == 0 || strcmp(scene->reconstruction, "lattice") == 0
                ? "the gradient must be the adjoint of the divergence; take reconstruction = \"stencil\" or \"none\""
            : body->cloud->symmetry != NULL
                ? "images of particles have no pressure of their own; take the whole body, without domain.symmetry"

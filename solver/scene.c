@@ -196,12 +196,59 @@ static bool slopes_grow(const struct solver_scene *scene)
 
 static const double slopes_hold = 0.15; /* of the spacing */
 
+static bool is_graded(const struct solver_scene *scene)
+{
+    return scene->grading[0].ratio > 1.0 || scene->grading[1].ratio > 1.0 || scene->grading[2].ratio > 1.0;
+}
+
+static bool is_along_lines(const struct solver_scene *scene)
+{
+    return strcmp(scene->stencil, "sbp2") == 0 || strcmp(scene->stencil, "sbp4") == 0;
+}
+
+/* Likewise along lines of lattices whose spacings change, with sbp4, or on which materials meet (stencil_slopes.c). By
+ * their eigenvalues a line of 25 grows by 1.4e-3 per step where the largest spacing is ten times the smallest, and ends
+ * within 29000 steps, a square of 9 x 9 with four times by 1.3e-2; composite ones by up to 2e-2, graded or not
+ * (tests/unit/solver_slopes.c). */
+static bool slopes_grow_along_lines(const struct solver_scene *scene)
+{
+    bool composite = solver_scene_has(scene, SOLVER_MATERIAL_AT);
+    bool fourth = strcmp(scene->stencil, "sbp4") == 0;
+    return strcmp(scene->scheme, "upwind") == 0 && is_along_lines(scene) && (composite || (fourth && is_graded(scene)));
+}
+
+/* In single precision places along lines are where particles are, and slopes those that go with them. */
+static const char *slopes_along_lines(const struct solver_scene *scene)
+{
+    return strcmp(scene->precision, "single") == 0 && is_graded(scene) ? "least-squares" : "lattice";
+}
+
+/* What `reconstruction` = "lattice" needs. */
+static void check_lattice_slopes(lua_State *L, const struct solver_scene *scene)
+{
+    if (strcmp(scene->reconstruction, "lattice") != 0)
+        return;
+    if (strcmp(scene->scheme, "upwind") != 0 || !is_along_lines(scene))
+        scene_refuse(L,
+                     "reconstruction: lattice is for scheme = \"upwind\" with stencil = \"sbp2\" or \"sbp4\", not %s "
+                     "with %s; expected stencil, least-squares or none",
+                     scene->scheme, scene->stencil);
+    if (strcmp(scene->precision, "single") == 0 && is_graded(scene))
+        scene_refuse(L,
+                     "reconstruction: lattice with a grading is for precision = \"double\" or \"mixed\", not single; "
+                     "expected stencil, least-squares or none");
+}
+
 static void choose_slopes(lua_State *L, struct solver_scene *scene)
 {
     if (scene->reconstruction[0] == '\0') {
-        bool own = slopes_grow(scene) && scene->incompressible.solver == SOLVER_PRESSURE_NONE;
-        (void)snprintf(scene->reconstruction, SOLVER_NAME, "%s", own ? "least-squares" : "stencil");
+        bool pressure = scene->incompressible.solver != SOLVER_PRESSURE_NONE;
+        const char *own = slopes_grow(scene)               ? "least-squares"
+                          : slopes_grow_along_lines(scene) ? slopes_along_lines(scene)
+                                                           : "stencil";
+        (void)snprintf(scene->reconstruction, SOLVER_NAME, "%s", pressure ? "stencil" : own);
     }
+    check_lattice_slopes(L, scene);
     if (scene->perturb > slopes_hold && slopes_grow(scene) && strcmp(scene->reconstruction, "stencil") == 0)
         scene_refuse(
             L,

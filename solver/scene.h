@@ -258,7 +258,7 @@ struct solver_scene {
     enum solver_evolved evolved;
     char stencil[SOLVER_NAME];          /* "sph", "closed", "sbp2", "sbp4" */
     double support;                     /* support radius / spacing */
-    char reconstruction[SOLVER_NAME];   /* "stencil", "least-squares", "none"; never empty */
+    char reconstruction[SOLVER_NAME];   /* "stencil", "least-squares", "lattice", "none"; never empty */
     char angular_momentum[SOLVER_NAME]; /* "free", "projected" (projection.h) */
     char volume_flux[SOLVER_NAME];      /* dissipation of J by the jump of "pressure" or of the whole "stress" */
     struct solver_jst_terms jst;

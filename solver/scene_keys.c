@@ -99,10 +99,12 @@ X("evolved", INDEX, AT(evolved), 0, 0, 0, "pF pFJ pFHJ", "pFHJ", "one of pF, pFJ
 X("stencil", WORD, AT(stencil), 0, 0, 0, "sph closed sbp2 sbp4", "sbp4", "one of sph, closed, sbp2, sbp4",             \
   "how discrete gradients are built")                                                                                  \
 X("support", NUMBER, AT(support), 1, 4, 0, "", "2", "number in [1, 4]", "support radius / spacing")                    \
-X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares none", OPTIONAL,                         \
-  "one of stencil, least-squares, none",                                                                                \
+X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares lattice none", OPTIONAL,                 \
+  "one of stencil, least-squares, lattice, none",                                                                                \
   "slopes of the linear reconstruction at the Riemann states, and of what jst corrects its Laplacian by; default: "    \
-  "stencil, but for upwind with closed between particles that perturb moved least-squares")                            \
+  "stencil, but for upwind with closed between particles that perturb moved least-squares, and along lines of sbp4 "   \
+  "that are graded, or of sbp2 and sbp4 where materials meet, lattice: in the lattice's own coordinate, whose steps "    \
+  "are even, and within one material")                            \
 X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \
   "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
 X("angular_momentum", WORD, AT(angular_momentum), 0, 0, 0, "free projected", "free", "one of free, projected",           \

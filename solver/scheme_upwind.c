@@ -55,6 +55,11 @@ void solver_upwind_destroy(void *of)
     free(system);
 }
 
+static bool by_lattice(const struct solver_scene *scene)
+{
+    return strcmp(scene->reconstruction, "lattice") == 0;
+}
+
 /* The stencil of the body's cloud; of a part of a symmetric body that of the whole is made, and reduced. */
 static bool make_stencil(struct solver_upwind_system *system, const struct solver_stencil_builder *builder, bool align,
                          struct solver_error *error)
@@ -67,7 +72,10 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     bool runs = align && (scene->dim < 3 || in_single); /* else loops take none: upwind_abreast_dim.c */
     struct solver_stencil **stencil = &system->stencil;
     if (!solver_stencil_create(builder, cloud, scene->support, stencil, error) ||
-        (least_squares && !solver_stencil_add_least_squares(*stencil, cloud, error))) {
+        (least_squares && !solver_stencil_add_least_squares(*stencil, cloud, error)) ||
+        (by_lattice(scene) &&
+         !solver_stencil_add_lattice_slopes(*stencil, cloud, system->body->stride != 0 ? system->body->constants : NULL,
+                                            error))) {
         return false;
     }
     system->residuals = solver_stencil_check(*stencil, cloud);
@@ -266,6 +274,18 @@ void solver_upwind_turn(void *of, struct solver_state *state)
     bind_cofactor(&system->work);
 }
 
+/* Of particle a, at X, as differences of it stand beside slopes: along a lattice that is graded, in its own coordinate.
+ * Else only its direction is asked for. */
+static void place(const struct solver_upwind_system *system, size_t a, const double *X, double *out)
+{
+    const struct solver_cloud *cloud = system->body->cloud;
+    size_t dim = (size_t)cloud->dim;
+    bool own = by_lattice(system->body->scene) && solver_cloud_graded(cloud);
+    for (size_t i = 0; i < dim; i++) {
+        out[i] = own ? (double)cloud->site[a * dim + i] * cloud->spacing : X[i];
+    }
+}
+
 bool solver_upwind_start(void *of, struct solver_error *error)
 {
     struct solver_upwind_system *system = of;
@@ -280,7 +300,7 @@ bool solver_upwind_start(void *of, struct solver_error *error)
         double F[9];
         memcpy(X, cloud->X + a * dim, dim * sizeof *X);
         if (work->X != NULL) {
-            memcpy(work->X + a * lanes, X, dim * sizeof *X);
+            place(system, a, X, work->X + a * lanes);
         }
         if (!solver_scene_has(scene, SOLVER_INITIAL_F)) {
             discrete_F(system, a, F);

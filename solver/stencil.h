@@ -13,6 +13,7 @@
 #include "solver/cloud.h"
 #include "solver/cost.h"
 #include "solver/graph.h"
+#include "solver/material.h"
 
 struct solver_stencil {
     int dim;
@@ -75,6 +76,10 @@ void solver_stencil_free(struct solver_stencil *stencil);
 /* Adds the weights of the least-squares gradient. */
 bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const struct solver_cloud *cloud,
                                       struct solver_error *error);
+/* In their place those of slopes on a lattice in its own coordinate, whose steps are all cloud->spacing, and within one
+ * material; `constants` of all particles, NULL where there is one material. */
+bool solver_stencil_add_lattice_slopes(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                                       const struct solver_material_constants *constants, struct solver_error *error);
 void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_cost_arrays *arrays);
 /* Sorts rows by axis if every pair lies along one, as on lattices of sbp2 and sbp4; else it leaves all as it is, and so
  * where there are transposed pair vectors or least-squares weights. Neighbours are then ascending along each axis only:
