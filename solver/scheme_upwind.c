@@ -234,8 +234,8 @@ void solver_upwind_gradient(const struct solver_stencil *stencil, const struct s
 }
 
 /* F of the places where particles are, from their displacements: the gradient of X itself is the identity, but for what
- * a builder's solution, or rounding, has left of pair vectors (1e-14 of closed, ten times that at corners). That is left
- * out: a body at rest has no strain. */
+ * a builder's solution, or rounding, has left of pair vectors (1e-14 of closed, ten times that at corners). That is
+ * left out: a body at rest has no strain. */
 static void discrete_F(const struct solver_upwind_system *system, size_t a, double *F)
 {
     const struct solver_vectors x = {.wide = system->work.x, .lanes = system->loops->lanes};
