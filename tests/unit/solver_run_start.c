@@ -62,7 +62,7 @@ static void test_at_rest(void)
         for (int dim = 2; dim <= 3; dim++) {
             struct sample sample = start("", "dim=%d stencil=%s", dim, stencils[s]);
             struct solver_output output = output_of(&sample);
-            size_t entries = (size_t)(dim * dim);
+            size_t entries = (size_t)dim * (size_t)dim;
             for (size_t i = 0; i < output.cloud->count * entries; i++) {
                 CU_ASSERT_EQUAL(output.F[i], i % entries % (size_t)(dim + 1) == 0 ? 1.0 : 0.0);
                 CU_ASSERT_EQUAL(output.P[i], 0.0);
