@@ -245,15 +245,15 @@ void solver_upwind_gradient(const struct solver_stencil *stencil, const struct s
     }
 }
 
-/* F of the places where particles are. The gradient of X itself is the identity, but for what rounded pair vectors make
- * of it, which is left out: a body at rest has no strain. */
+/* F of the places where particles are, from their displacements: the gradient of X itself is the identity, but for what
+ * a builder's solution, or rounding, has left of pair vectors (1e-14 of closed, ten times that at corners). That is
+ * left out: a body at rest has no strain. */
 static void discrete_F(const struct solver_upwind_system *system, size_t a, double *F)
 {
     const struct solver_vectors x = {.wide = system->work.x, .lanes = system->loops->lanes};
-    bool rounded = system->stencil->narrow != NULL;
     size_t dim = (size_t)system->body->cloud->dim;
-    solver_upwind_gradient(system->stencil, &x, rounded ? system->body->cloud->X : NULL, a, F);
-    for (size_t i = 0; rounded && i < dim; i++) {
+    solver_upwind_gradient(system->stencil, &x, system->body->cloud->X, a, F);
+    for (size_t i = 0; i < dim; i++) {
         F[i * dim + i] += 1.0;
     }
 }

@@ -21,6 +21,7 @@ declare -A skipped=(
   [test_verify_checkpoint]="runs of every scene, which test_solver_checkpoint makes of small ones: minutes"
   [test_solver_fields]="thousands of runs of test_solver_run, poisoned: a minute"
   [test_verify_trap]="valgrind 3.19 knows no floating-point traps"
+  [test_golden_solved]="the runs of test_golden_paths, of other bodies"
   [test_solver_run_momentum]="a thousand steps of each run of test_solver_run: 90 s"
 )
 # Of these, some tests.

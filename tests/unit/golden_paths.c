@@ -1,29 +1,9 @@
 /* Every path of the hot loops (solver/path.h) that this processor knows gives the same answer: avx2 and avx512 the same
  * bits, baseline to within the bounds of golden records. */
-#include "golden/golden.h"
-#include "solver/path.h"
 #include "solver/peak.h"
-#include "solver/record.h"
-#include "tests/unit/runs.h"
+#include "tests/unit/paths.h"
 
-/* A small strain, as golden records have it. */
-static const char scene[] =
-    "faces = { X0 = 'symmetric' }\n"
-    "initial = { velocity = function(X, Y, Z)\n"
-    "    return first(2e-3 * sin(2 * X + Y), 1e-3 * cos(3 * Y - X + Z), 1e-3 * sin(2 * Z + X)) end }\n";
-
-static struct solver_record *run_on(int path, const char *settings)
-{
-    solver_path_use(path);
-    struct sample sample = start(scene, "%s", settings);
-    struct solver_record *record = NULL;
-    advance_to(&sample, 12.0 * sample.scene->cfl * solver_run_facts(sample.run).spacing / wave_speed(&sample));
-    struct solver_output output = output_of(&sample);
-    CU_ASSERT_FATAL(
-        solver_record_make(sample.scene, &output, solver_run_history(sample.run), "", "", &record, &sample.error));
-    finish(&sample);
-    return record;
-}
+static const double small = 1e-3; /* a strain as golden records have it */
 
 static bool same_bits(const struct solver_record *left, const struct solver_record *right)
 {
@@ -37,27 +17,8 @@ static bool same_bits(const struct solver_record *left, const struct solver_reco
                           left->history_count * left->history_columns * sizeof *left->history) == 0;
 }
 
-static bool within_bounds(const struct solver_record *stored, struct solver_record *fresh)
-{
-    struct golden_report report;
-    struct solver_error error;
-    memcpy(fresh->scene_name, stored->scene_name, strlen(fresh->scene_name)); /* that of a temporary file */
-    CU_ASSERT_FATAL(golden_compare(stored, fresh, &report, &error));
-    for (size_t i = 0; i < report.count; i++) {
-        if (!report.line[i].pass) {
-            printf("\n    %s: %.3g > %.3g", report.line[i].field, report.line[i].difference, report.line[i].bound);
-        }
-    }
-    bool pass = report.pass;
-    golden_report_free(&report);
-    return pass;
-}
-
-/* The first is within the bounds by little, 0.99 of them, and not for every cloud: others of its kind are 1.3 times the
- * bounds apart, and one on a lattice 1.7 times. Particles at edges and corners have an eighth of the volume, and noise
- * of the same energy is larger there, which the bounds do not know. */
 static const char *const linear[] = {
-    "dim=3 stencil=closed evolved=pFHJ perturb=0.1 reconstruction=stencil material.model=linear-elastic",
+    "dim=3 stencil=closed evolved=pFHJ perturb=0.1 material.model=linear-elastic",
     "dim=3 stencil=sbp2 evolved=pF material.model=linear-elastic",
     "dim=2 n=9 stencil=sbp4 evolved=pFJ integrator=rk4 material.model=linear-elastic",
     "dim=2 n=9 stencil=sph evolved=pFHJ material.model=linear-elastic",
@@ -68,7 +29,6 @@ static const char *const linear[] = {
 
 static const char *const nonlinear[] = {
     "dim=3 stencil=closed evolved=pFHJ perturb=0.1",
-    "dim=3 stencil=closed evolved=pFHJ perturb=0.1 material.model=linear-elastic",
     "dim=2 n=9 stencil=sbp2 evolved=pFJ reconstruction=least-squares",
     "dim=2 n=9 stencil=sbp2 evolved=pFHJ volume_flux=stress integrator=rk4",
     "dim=3 stencil=sbp2 evolved=pF material.model=hencky material.yield_stress=1e-3 material.hardening=0.1",
@@ -85,8 +45,8 @@ static void test_same_bits(void)
     for (size_t i = 0; i < sizeof linear / sizeof *linear + sizeof nonlinear / sizeof *nonlinear; i++) {
         size_t count = sizeof linear / sizeof *linear;
         const char *settings = i < count ? linear[i] : nonlinear[i - count];
-        struct solver_record *avx2 = run_on(1, settings);
-        struct solver_record *avx512 = run_on(2, settings);
+        struct solver_record *avx2 = run_on(1, small, settings);
+        struct solver_record *avx512 = run_on(2, small, settings);
         if (!same_bits(avx2, avx512)) {
             printf("\n    avx2 and avx512 differ: %s", settings);
         }
@@ -101,14 +61,14 @@ static void test_same_bits(void)
 static void test_baseline(void)
 {
     for (size_t i = 0; i < sizeof linear / sizeof *linear; i++) {
-        struct solver_record *baseline = run_on(0, linear[i]);
+        struct solver_record *baseline = run_on(0, small, linear[i]);
         for (int path = 1; path < SOLVER_PATHS && solver_path_runs(path); path++) {
-            struct solver_record *other = run_on(path, linear[i]);
-            bool pass = within_bounds(baseline, other);
-            if (!pass) {
-                printf("\n    %s is out of bounds: %s", solver_path_name(path), linear[i]);
+            struct solver_record *other = run_on(path, small, linear[i]);
+            double share = share_of_bounds(baseline, other);
+            if (share > 1.0) {
+                printf("\n    %s is out of bounds, %.3g: %s", solver_path_name(path), share, linear[i]);
             }
-            CU_ASSERT(pass);
+            CU_ASSERT(share <= 1.0);
             solver_record_free(other);
         }
         solver_record_free(baseline);

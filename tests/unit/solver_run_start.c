@@ -54,11 +54,30 @@ static void test_none_given(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "initial.from: the scene starts from its oracle, and none was given"));
 }
 
+/* Whatever a stencil's solution leaves of the gradient of X: a body at rest has no strain and no stress. */
+static void test_at_rest(void)
+{
+    static const char *const stencils[] = {"closed perturb=0.3", "closed", "sbp4 n=8", "sph"};
+    for (size_t s = 0; s < sizeof stencils / sizeof *stencils; s++) {
+        for (int dim = 2; dim <= 3; dim++) {
+            struct sample sample = start("", "dim=%d stencil=%s", dim, stencils[s]);
+            struct solver_output output = output_of(&sample);
+            size_t entries = (size_t)dim * (size_t)dim;
+            for (size_t i = 0; i < output.cloud->count * entries; i++) {
+                CU_ASSERT_EQUAL(output.F[i], i % entries % (size_t)(dim + 1) == 0 ? 1.0 : 0.0);
+                CU_ASSERT_EQUAL(output.P[i], 0.0);
+            }
+            finish(&sample);
+        }
+    }
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
         {"a state that is given", test_given},
         {"none is given", test_none_given},
+        {"a body at rest", test_at_rest},
     };
     return unit_main("run_start", tests, sizeof tests / sizeof *tests);
 }
