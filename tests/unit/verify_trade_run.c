@@ -93,7 +93,7 @@ static void other_ends(void)
     CU_ASSERT_EQUAL(refused.end, VERIFY_REFUSED);
     CU_ASSERT_STRING_NOT_EQUAL(refused.why, "");
     unit_untrapped(); /* steps too large by far */
-    struct verify_trade_run broken = measured_at(100, "integrator=rk4 cfl=3");
+    struct verify_trade_run broken = measured_at(100, "integrator=rk4 cfl=4");
     CU_ASSERT_EQUAL(broken.end, VERIFY_BROKE);
     unit_trapped();
     trader.deadline = -INFINITY;
