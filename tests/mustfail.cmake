@@ -140,7 +140,7 @@ assay_mutant(plastic-memory "P_all" plastic-cube --levels 3 --set threads=1)
 
 assay_extreme_mutant(flux-impedance-at-rest 3 1 stretch "upwind {p,F,H,J}, 3D")
 assay_extreme_mutant(step-beyond-cfl 1 1 cfl "upwind sbp2 pF rk4, 1D")
-assay_extreme_mutant(interface-mean-slope 1 1 contrast "upwind sbp2")
+assay_extreme_mutant(interface-mean-slope 1 1 contrast "upwind sbp2" --set reconstruction=stencil)
 assay_extreme_mutant(interface-crossed 1 1 contrast "upwind sbp4")
 
 assay_unit_mutant(sbp4-short-weight solver_stencil "every builder in 1D")
