@@ -5,7 +5,9 @@
 #include "tests/unit/clouds.h"
 #include "tests/unit/runs.h"
 
-static enum { FOUND, NONE, WRONG } runs; /* those that are, none, or a particle more in each */
+enum finding { FOUND, NONE, WRONG }; /* those that are, none, or a particle more in each */
+
+static enum finding runs;
 
 // NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 bool __real_solver_stencil_find_runs(struct solver_stencil *stencil, struct solver_error *error);
@@ -170,7 +172,7 @@ static const char *const loops[] = {
     "dim=1 n=70 evolved=pFJ stencil=sbp4 precision=single",
 };
 
-static struct sample run_with(int which, int path, const char *more, const char *settings)
+static struct sample run_with(enum finding which, int path, const char *more, const char *settings)
 {
     runs = which;
     solver_path_use(path);
