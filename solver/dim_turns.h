@@ -22,7 +22,12 @@ static inline wide in_turn(const wide of[TURNS])
 /* Component I, a constant, of vectors of pairs. */
 static inline wide components_in_turn(const wide of[TURNS], int I)
 {
+#if DIM == 1
+    (void)I;
+    return of[0];
+#else
     return I == 0 ? TAKE_TURNS(of, IN_TURN_0) : I == 1 ? TAKE_TURNS(of, IN_TURN_1) : TAKE_TURNS(of, IN_TURN_2);
+#endif
 }
 
 /* The number of pair k, a constant, in every lane. */
