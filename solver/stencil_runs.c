@@ -18,7 +18,7 @@ static bool go_on(const struct solver_stencil *stencil, size_t a)
     const uint8_t *along = stencil->along + a * lanes;
     bool same = length > 0 && row[a + 2] - row[a + 1] == length && stencil->shared[a] == stencil->shared[a + 1] &&
                 memcmp(along, along + lanes, lanes) == 0 && memcmp(sum, sum + dim, dim * sizeof *sum) == 0 &&
-                memcmp(stencil->V + a, stencil->V + a + 1, sizeof *stencil->V) == 0;
+                stencil->V[a] == stencil->V[a + 1];
     for (size_t k = 0; same && k < length; k++) {
         same = of_next[k] == of_a[k] + 1;
     }
