@@ -52,7 +52,7 @@ declare -A only=(
 # Of others these are left out, beside what repeats.txt names: the sanitizers see them.
 declare -A without=(
   [test_solver_run_walls]="carried along"      # walls of every kind in every dimension: 25 s
-  [test_solver_run_composite]="a step for materials that differ ten thousand times|energy where materials meet" # long runs
+  [test_solver_run_composite]="a step for materials that differ ten thousand times" # long runs
   [test_solver_stencil_share]="runs give the same bits" # ten scenes, twice each: 40 s
   [test_solver_stencil_runs]="runs give the same bits|a wrong run is seen" # more scenes, on each path: minutes
   [test_solver_run_faces]="faces hold their components, also on edges and in corners" # every kind on every body: 27 s
