@@ -164,6 +164,18 @@ static inline struct solver_output output_of(struct sample *sample)
     return output;
 }
 
+/* Whether two runs have the same bits. */
+static inline bool are_same(struct sample *one, struct sample *other)
+{
+    struct solver_output a = output_of(one);
+    struct solver_output b = output_of(other);
+    size_t vector = a.cloud->count * (size_t)a.cloud->dim * sizeof(double);
+    size_t tensor = vector * (size_t)a.cloud->dim;
+    return memcmp(a.v, b.v, vector) == 0 && memcmp(a.u, b.u, vector) == 0 && memcmp(a.F, b.F, tensor) == 0 &&
+           memcmp(a.H, b.H, tensor) == 0 && memcmp(a.P, b.P, tensor) == 0 &&
+           memcmp(a.J, b.J, a.cloud->count * sizeof(double)) == 0;
+}
+
 /* The p-wave speed of the block's material as overridden. */
 static inline double wave_speed(const struct sample *sample)
 {

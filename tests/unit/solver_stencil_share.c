@@ -113,18 +113,6 @@ static struct sample run_with(bool kept_apart, const char *more, const char *set
     return sample;
 }
 
-/* Whether two runs have the same bits in all that pair vectors go into. */
-static bool are_same(struct sample *one, struct sample *other)
-{
-    struct solver_output a = output_of(one);
-    struct solver_output b = output_of(other);
-    size_t vector = a.cloud->count * (size_t)a.cloud->dim * sizeof(double);
-    size_t tensor = vector * (size_t)a.cloud->dim;
-    return memcmp(a.v, b.v, vector) == 0 && memcmp(a.u, b.u, vector) == 0 && memcmp(a.F, b.F, tensor) == 0 &&
-           memcmp(a.H, b.H, tensor) == 0 && memcmp(a.P, b.P, tensor) == 0 &&
-           memcmp(a.J, b.J, a.cloud->count * sizeof(double)) == 0;
-}
-
 static void expect_same(const char *more, const char *settings)
 {
     struct sample shared = run_with(false, more, settings);
