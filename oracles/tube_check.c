@@ -48,10 +48,10 @@ static double off_phase(double z, void *context)
     return root_strain(of->wall, expm1(z)) - of->root_energy * sin(of->phase);
 }
 
-/* False if there is no root: outside the interval of the oracle. */
+/* False if there is no root: far outside the interval of the oracle, at an end of which the tube may turn. */
 static bool set_phase(struct phased *at, double phase)
 {
-    const double most = 2 * log(TUBE_STRETCH);
+    const double most = 2 * log(2 * TUBE_STRETCH);
     double z = 0, slope;
     at->phase = phase;
     if (sin(phase) * at->root_energy != 0 && !root_between(off_phase, at, -most, most, &z)) {

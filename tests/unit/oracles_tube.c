@@ -260,6 +260,7 @@ static void holds_at_the_ends_of_its_parameters(void)
         {{"A", 1e-20}, {"B", 3e-20}},
         {{"A", 1e20}, {"B", 3e20}, {"mu", 1e-20}, {"material.rho", 1e20}, {"velocity", -3e-21}},
         {{"A", 1e-30}, {"B", 1.5e-30}, {"mu", 1e40}, {"material.rho", 1e-10}, {"velocity", 1e24}},
+        {{"stretch", 0.1}, {"velocity", 0}}, /* turns at the end of what it admits */
     };
     holds_with_each(the_kind(), set, sizeof set / sizeof *set);
 }
