@@ -22,6 +22,9 @@
 
 static const double LONGER = 1.2;   /* a side over the next: moments of inertia as near one another lose digits */
 static const double NEAREST = 1e-3; /* to the separatrix */
+/* The longest side over the middle and the shortest: of a needle the spin about its own axis is so fast in a period of
+ * the others that there are no digits left, and less to prove; of a sheet F has those of a place on its edge. */
+static const double NEEDLE = 30, SHEET = 3000;
 
 struct oracle {
     struct free_top_given given;
@@ -38,7 +41,7 @@ struct oracle {
 };
 
 static const struct oracle_parameter parameters[] = {
-    {"A", "m", "longest side, along X", 0, INFINITY, true, false, 3},
+    {"A", "m", "longest side, along X, at most 30 B and 3000 C", 0, INFINITY, true, false, 3},
     {"B", "m", "middle side, along Y, at most A / 1.2", 0, INFINITY, true, false, 2},
     {"C", "m", "shortest side, along Z, at most B / 1.2", 0, INFINITY, true, false, 1},
     {"spin_x", "rad/s", "angular velocity at t = 0", -INFINITY, INFINITY, false, false, 0.1},
@@ -242,7 +245,7 @@ static bool solve(struct oracle *o)
     return true;
 }
 
-static bool ordered(const double *value, char why[ORACLE_WHY])
+static bool is_box(const double *value, char why[ORACLE_WHY])
 {
     for (int n = 0; n < 2; n++) {
         if (!(value[n] >= LONGER * value[n + 1])) {
@@ -253,6 +256,15 @@ static bool ordered(const double *value, char why[ORACLE_WHY])
                            parameters[n].name, 1.5 * value[n + 1]);
             return false;
         }
+    }
+    bool needle = value[0] > NEEDLE * value[1];
+    if (needle || value[0] > SHEET * value[2]) {
+        int other = needle ? 1 : 2;
+        (void)snprintf(why, ORACLE_WHY,
+                       "A = %.15g m and %s = %.15g m, but A must be at most %g times as long; %s = %g would do",
+                       value[0], parameters[other].name, value[other], needle ? NEEDLE : SHEET, needle ? "A" : "C",
+                       needle ? 1.5 * value[1] : value[1] / 1.5);
+        return false;
     }
     return true;
 }
@@ -265,7 +277,7 @@ static bool create(const double *value, struct oracle **oracle, char why[ORACLE_
     const double size[] = {
         spin,           A * A * A * A * spin * spin,         C * C * C * C * spin * spin, value[6] * A * spin,
         mass(&o.given), mass(&o.given) * A * A * spin * spin};
-    if (!ordered(value, why)) {
+    if (!is_box(value, why)) {
         return false;
     }
     if (spin == 0) {
