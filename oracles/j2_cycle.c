@@ -25,16 +25,16 @@
 static const double MOST_YIELDED = 1e4; /* amplitude over the strain that yields */
 enum { MOST_LEGS = 2 * J2_CYCLES + 1 };
 
-/* What the material remembers at a turning point. */
-struct turn {
-    double flown, plastic; /* signed and accumulated plastic strain */
+/* The material at one strain. */
+struct material {
+    double strain, stress, plastic; /* y [-], q [Pa], a [-] */
 };
 
 struct oracle {
     struct j2_cycle_given given;
     struct j2_cycle_path path;
-    double bulk, mu; /* [Pa] */
-    struct turn turn[MOST_LEGS];
+    double bulk, mu;                 /* [Pa] */
+    struct material turn[MOST_LEGS]; /* where each leg begins */
 };
 
 static double reach(const struct oracle *o)
@@ -69,28 +69,22 @@ static double yield_stress(const struct oracle *o, double plastic)
     return o->given.yield_stress + o->given.hardening * plastic;
 }
 
-/* At strain x on a leg. */
-static struct turn material_at(const struct oracle *o, int leg, double x)
+/* At strain x on a leg. What yields has the yield stress, however much of the strain has flowed. */
+static struct material material_at(const struct oracle *o, int leg, double x)
 {
-    struct turn now = o->turn[leg];
-    double d = leg % 2 == 0 ? 1 : -1, y = equivalent_strain(o, x);
-    double beyond = d * (y - now.flown) - yield_stress(o, now.plastic) / (3 * o->mu);
-    if (beyond > 0) {
-        double flow = beyond / (1 + o->given.hardening / (3 * o->mu));
-        now.flown += d * flow;
-        now.plastic += flow;
+    const struct material *from = &o->turn[leg];
+    double d = leg % 2 == 0 ? 1 : -1, y = equivalent_strain(o, x), q = from->stress + 3 * o->mu * (y - from->strain);
+    double excess = d * q - yield_stress(o, from->plastic);
+    if (!(excess > 0)) {
+        return (struct material){y, q, from->plastic};
     }
-    return now;
+    double plastic = from->plastic + excess / (3 * o->mu + o->given.hardening);
+    return (struct material){y, d * yield_stress(o, plastic), plastic};
 }
 
-static struct turn material_now(const struct oracle *o, double t)
+static struct material material_now(const struct oracle *o, double t)
 {
     return material_at(o, leg_at(o, t), strain_at(o, t));
-}
-
-static double equivalent_stress(const struct oracle *o, double t)
-{
-    return 3 * o->mu * (equivalent_strain(o, strain_at(o, t)) - material_now(o, t).flown);
 }
 
 static void state(const struct oracle *o, const double X[3], double t, struct oracle_state *at)
@@ -99,7 +93,7 @@ static void state(const struct oracle *o, const double X[3], double t, struct or
         oracle_silence(at);
         return;
     }
-    double x = strain_at(o, t), rate = rate_at(o, t), q = equivalent_stress(o, t), place = X[o->path.component];
+    double x = strain_at(o, t), rate = rate_at(o, t), q = material_now(o, t).stress, place = X[o->path.component];
     memset(at, 0, sizeof *at);
     at->u[0] = x * place;
     at->v[0] = rate * place;
@@ -135,7 +129,7 @@ static void energy(const struct oracle *o, double t, double *kinetic, double *st
         *kinetic = *strain = NAN;
         return;
     }
-    double x = strain_at(o, t), rate = rate_at(o, t), q = equivalent_stress(o, t);
+    double x = strain_at(o, t), rate = rate_at(o, t), q = material_now(o, t).stress;
     double volumetric = o->path.component == 1 ? 0 : (o->path.logarithmic ? log1p(x) : x);
     *kinetic = o->given.rho * rate * rate / 6;
     *strain = o->bulk / 2 * volumetric * volumetric + q / (6 * o->mu) * q;
@@ -146,9 +140,9 @@ static size_t figures(const struct oracle *o, struct oracle_figure figure[ORACLE
     double quarter = o->given.period / 4, end = reach(o);
     const struct oracle_figure all[] = {
         {"strain rate", "1/s", "magnitude, between the turning points", rate_at(o, 0)},
-        {"first peak", "Pa", "equivalent stress at the first turning point", equivalent_stress(o, quarter)},
+        {"first peak", "Pa", "equivalent stress at the first turning point", material_now(o, quarter).stress},
         {"last peak", "Pa", "magnitude of the equivalent stress at the last turning point",
-         -equivalent_stress(o, end - quarter)},
+         -material_now(o, end - quarter).stress},
         {"plastic strain", "-", "accumulated when all is over", material_now(o, end).plastic},
     };
     memcpy(figure, all, sizeof all);

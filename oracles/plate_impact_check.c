@@ -141,7 +141,7 @@ static void check_contact(struct self_check *check)
     self_check_line(check, "plane of contact at rest", moved, 16 * DBL_EPSILON);
     self_check_arrival(check, "arrival of the left shock", STATION * L, v0 / 2, (1 - STATION) * L / of->U);
     self_check_arrival(check, "arrival of the right shock", (2 - STATION) * L, -v0 / 2, (1 - STATION) * L / of->U);
-    self_check_reach(check, "says nothing once the back faces are reached", L / of->U);
+    self_check_reach(check, "says nothing once the back faces are reached", L / of->U, BOUND);
 }
 
 /* Where equation of state and jump of energy differ, for a pressure. */

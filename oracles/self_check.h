@@ -56,8 +56,9 @@ struct self_check {
     struct self_check_scale least; /* sizes the fields are known to have where samples may miss them; else zero */
     const struct self_check_material *material; /* NULL: Hooke's law */
     size_t pieces; /* [0, t_end] is so many equal pieces in each of which v is smooth; 0: one */
-    /* Energy that the faces have fed in by t, and what of it has been dissipated [J, or J/m^2]; NULL: none. */
-    void (*supplied)(const struct self_check *check, double t, double *fed, double *lost);
+    /* Energy that the faces have fed in by t, what of it has been dissipated, and all that went in or out by then,
+     * whose round-off either has [J, or J/m^2]; NULL: none. */
+    void (*supplied)(const struct self_check *check, double t, double *fed, double *lost, double *passed);
     double t_first; /* samples of a kind with fronts begin here [s] */
     double drift;   /* velocity of the body as a whole over that of the waves in it: that much less precise is a wave */
     double t_free;  /* nothing feeds or drains the body from here on [s] */

@@ -84,8 +84,8 @@ void self_check_mode(const struct self_check *check, const struct self_check_bod
 void self_check_mode_lines(struct self_check *check, const struct self_check_distance of[3], double frequency);
 /* Adds a line: in one dimension, v at X passes `level` [m/s] at `time` [s], and not before. */
 void self_check_arrival(struct self_check *check, const char *law, double X, double level, double time);
-/* Adds a line: from later than `time` on [s] the kind says NaN, and not before. */
-void self_check_reach(struct self_check *check, const char *law, double time);
+/* Adds a line: from later than `time` on [s] the kind says NaN, and not before, to within a relative bound. */
+void self_check_reach(struct self_check *check, const char *law, double time, double bound);
 /* The rule itself, on [-1, 1]. */
 enum { SELF_CHECK_NODES = 10 };
 double self_check_node(int n, double *weight);
