@@ -33,7 +33,7 @@ static const struct oracle_parameter linear_parameters[] = {
     {"v0", "m/s", "velocity of either plate towards the other", 0, INFINITY, true, false, 1000},
     {"material.rho", "kg/m^3", "density at rest", 0, INFINITY, true, false, 2785},
     {"material.c0", "m/s", "shock speed in the limit of weak shocks", 0, INFINITY, true, false, 5328},
-    {"material.s", "-", "rise of the shock speed with the velocity behind the shock", 0, INFINITY, false, false, 1.338},
+    {"material.s", "-", "rise of the shock speed with the velocity behind the shock", 0, 100, false, false, 1.338},
     {"material.Gamma0", "-", "Grueneisen's coefficient at rest; it goes with 1/rho", 0, INFINITY, false, false, 2},
     {0},
 };
@@ -144,12 +144,16 @@ static bool fits(const struct oracle_kind *kind, const struct oracle *o, const d
     if (!oracle_representable(size, sizeof size / sizeof *size, false)) {
         return oracle_out_of_range(kind->parameter, value, why);
     }
-    if (!(o->eta < eos->limit(&o->given))) {
-        (void)snprintf(
-            why, ORACLE_WHY,
-            "v0 = %.15g m/s compresses by %.15g, but it must be less than %.15g, where the equation of state "
-            "ends; v0 = %g m/s would do",
-            o->given.v0, o->eta, eos->limit(&o->given), o->given.v0 / 2 * eos->limit(&o->given));
+    double limit = eos->limit(&o->given);
+    if (!(o->eta < limit)) {
+        char remedy[48] = "material.gamma = 1.4"; /* an ideal gas is compressed alike at any speed */
+        if (o->sound[0] > 0) {                    /* than which no shock is slower */
+            (void)snprintf(remedy, sizeof remedy, "v0 = %g m/s", limit / 2 * o->sound[0]);
+        }
+        (void)snprintf(why, ORACLE_WHY,
+                       "v0 = %.15g m/s compresses by %.15g, but it must be less than %.15g, near where the equation "
+                       "of state ends; %s would do",
+                       o->given.v0, o->eta, limit, remedy);
         return false;
     }
     return true;

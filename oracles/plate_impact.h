@@ -19,7 +19,7 @@ struct plate_impact_eos {
     double (*shock_speed)(const struct plate_impact_given *given);
     /* Speed of sound [m/s] on the Hugoniot curve, where the compression is eta = 1 - rho0/rho and the pressure p. */
     double (*sound_speed)(const struct plate_impact_given *given, double eta, double p);
-    /* The compression that no shock reaches. */
+    /* The compression that no shock may reach. */
     double (*limit)(const struct plate_impact_given *given);
     /* The equation of state itself: pressure [Pa] by compression and internal energy [J/kg] above that of the material
      * at rest. Analytic, so that a complex step differentiates it. */

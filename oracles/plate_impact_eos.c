@@ -10,6 +10,9 @@
 
 #include <math.h>
 
+/* A compression is known to the last digit of one, as F = 1 - eta is: so many times that may the pressure err. */
+static const double MOST_MAGNIFIED = 500;
+
 enum { GAMMA, P_INF };      /* of the stiffened gas */
 enum { C0, SLOPE, GAMMA0 }; /* of Mie and Grueneisen */
 
@@ -27,7 +30,7 @@ static double stiffened_sound(const struct plate_impact_given *g, double eta, do
 static double stiffened_limit(const struct plate_impact_given *g)
 {
     (void)g;
-    return 1;
+    return 1 - 1 / MOST_MAGNIFIED;
 }
 
 static double complex stiffened_pressure(const struct plate_impact_given *g, double complex eta, double complex e)
@@ -51,7 +54,8 @@ static double linear_sound(const struct plate_impact_given *g, double eta, doubl
 /* Beyond 2/Gamma0 the curve that the equation of state is made from is not its Hugoniot curve. */
 static double linear_limit(const struct plate_impact_given *g)
 {
-    return fmin(1 / fmax(1, g->material[SLOPE]), 2 / fmax(2, g->material[GAMMA0])); /* either may be 0 */
+    return fmin(1 / fmax(1, g->material[SLOPE]) - 1 / MOST_MAGNIFIED,
+                2 / fmax(2, g->material[GAMMA0])); /* either may be 0 */
 }
 
 static double complex linear_pressure(const struct plate_impact_given *g, double complex eta, double complex e)

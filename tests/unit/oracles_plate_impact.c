@@ -209,12 +209,44 @@ static void holds_at_the_ends_of_its_parameters(void)
         {{"material.s", 0}},
         {{"material.s", 10}, {"material.Gamma0", 0}},
         {{"material.Gamma0", 13}}, /* not far from where the curve ends */
-        {{"material.c0", 1e-3}},   /* close to the pole of the curve */
+        {{"material.c0", 4}},      /* close to the pole of the curve */
         {{"material.rho", 1e-80}},
         {{"L", 1e-50}},
     };
     holds_with_each(kind_called(names[0]), stiffened, sizeof stiffened / sizeof *stiffened);
     holds_with_each(kind_called(names[1]), linear, sizeof linear / sizeof *linear);
+}
+
+/* Whatever is refused for its compression, what the message says would do is admitted, and proves itself. */
+static void says_what_would_do(void)
+{
+    static const struct {
+        int kind;
+        struct setting set[SETTINGS];
+    } wrong[] = {
+        {1, {{"v0", 2e4}, {"material.s", 0}, {"material.Gamma0", 1}}},
+        {1, {{"material.Gamma0", 20}}},
+        {1, {{"material.s", 90}, {"v0", 1e4}}}, /* 1 - s eta cancels */
+        {1, {{"material.c0", 3}}},              /* likewise */
+        {0, {{"material.gamma", 1.0001}, {"v0", 1e7}}},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        const struct oracle_kind *kind = kind_called(names[wrong[i].kind]);
+        char why[ORACLE_WHY] = "";
+        double v0 = 0;
+        CU_ASSERT_PTR_NULL_FATAL(try_with(kind, wrong[i].set, why));
+        const char *advice = strrchr(why, ';');
+        CU_ASSERT_FATAL(advice != NULL && sscanf(advice, "; v0 = %lf m/s would do", &v0) == 1);
+        struct setting mended[1][SETTINGS] = {{{"v0", v0}}};
+        for (size_t j = 0, next = 1; j < SETTINGS && wrong[i].set[j].name != NULL; j++) {
+            if (strcmp(wrong[i].set[j].name, "v0") != 0) {
+                mended[0][next++] = wrong[i].set[j];
+            }
+        }
+        holds_with_each(kind, (const struct setting(*)[SETTINGS])mended, 1);
+    }
+    refuses(kind_called(names[0]), (const struct setting[SETTINGS]){{"material.gamma", 1.0001}, {"material.p_inf", 0}},
+            "material.gamma = 1.4 would do");
 }
 
 static void refuses_what_no_shock_reaches(void)
@@ -241,6 +273,7 @@ int main(void)
         {"a finite-volume scheme converges to it", a_finite_volume_scheme_converges_to_it},
         {"holds at the ends of its parameters", holds_at_the_ends_of_its_parameters},
         {"refuses what no shock reaches", refuses_what_no_shock_reaches},
+        {"says what would do", says_what_would_do},
     };
     return unit_main("oracles: plate impact", tests, sizeof tests / sizeof *tests);
 }
