@@ -239,28 +239,32 @@ struct integral {
     double t;
     self_check_integrand *integrand;
     const void *with;
-    double *sum;
 };
 
-/* From `lower` to `upper` along `axis`, and over the whole body along those behind it. */
-static void integrate_along(const struct integral *of, int axis, double lower, double upper, double X[3], double weight)
+/* From `lower` to `upper` along `axis`, and over the whole body along those behind it, each line for itself: a thousand
+ * terms that are much alike, added to one sum, would all be rounded the same way. */
+static void integrate_along(const struct integral *of, int axis, double lower, double upper, double X[3], double weight,
+                            double sum[SELF_CHECK_SUMS])
 {
     double half = (upper - lower) / 2;
     for (int n = 0; n < SELF_CHECK_NODES; n++) {
-        double share;
+        double share, of_line[SELF_CHECK_SUMS] = {0};
         X[axis] = (lower + upper) / 2 + half * self_check_node(n, &share);
         if (axis < 2 && axis + 1 < of->check->kind->dim) {
             integrate_along(of, axis + 1, of->body->lower[axis + 1], of->body->upper[axis + 1], X,
-                            weight * half * share);
+                            weight * half * share, of_line);
         } else {
             struct oracle_state state;
             of->check->kind->state(of->check->oracle, X, of->t, &state);
-            of->integrand(of->body, &state, X, of->with, weight * half * share, of->sum);
+            of->integrand(of->body, &state, X, of->with, weight * half * share, of_line);
+        }
+        for (int i = 0; i < SELF_CHECK_SUMS; i++) {
+            sum[i] += of_line[i];
         }
     }
 }
 
-static void integrate_along_radii(const struct integral *of, double longest)
+static void integrate_along_radii(const struct integral *of, double longest, double sum[SELF_CHECK_SUMS])
 {
     const struct shell *shell = of->check->shell;
     int cuts = (int)fmax(1, ceil((shell->outer - shell->inner) / longest));
@@ -272,7 +276,7 @@ static void integrate_along_radii(const struct integral *of, double longest)
         double weight = shell_place(shell, part, 0, X) * share / 2 / cuts / RADII;
         struct oracle_state state;
         of->check->kind->state(of->check->oracle, X, of->t, &state);
-        of->integrand(of->body, &state, X, of->with, weight, of->sum);
+        of->integrand(of->body, &state, X, of->with, weight, sum);
     }
 }
 
@@ -280,20 +284,20 @@ void self_check_integrate(const struct self_check *check, const struct self_chec
                           self_check_integrand *integrand, const void *with, double sum[SELF_CHECK_SUMS])
 {
     double place[SELF_CHECK_PLACES], X[3] = {0, 0, 0};
-    struct integral of = {check, body, t, integrand, with, sum};
+    struct integral of = {check, body, t, integrand, with};
     size_t count = self_check_places(check, body, t, place);
     for (int i = 0; i < SELF_CHECK_SUMS; i++) {
         sum[i] = count == 0 ? NAN : 0;
     }
     if (check->shell != NULL) {
-        integrate_along_radii(&of, longest);
+        integrate_along_radii(&of, longest, sum);
         return;
     }
     for (size_t i = 0; i + 1 < count; i++) {
         double from = place[i], length = place[i + 1] - from;
         int cuts = (int)fmax(1, ceil(length / longest));
         for (int cut = 0; cut < cuts; cut++) {
-            integrate_along(&of, 0, from + length * cut / cuts, from + length * (cut + 1) / cuts, X, 1);
+            integrate_along(&of, 0, from + length * cut / cuts, from + length * (cut + 1) / cuts, X, 1, sum);
         }
     }
 }

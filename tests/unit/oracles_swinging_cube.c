@@ -111,6 +111,7 @@ static void holds_at_the_ends_of_its_parameters(void)
         {1, 0.5, -0.3, 1e70, 1e50, 0.3, 1e80},             /* huge */
         {1, 1e-13, -1, 5e-4, 17e6, 0.4999, 1100},          /* hardly any p-wave */
         {1e16, 1, -1e16, 1e-20, 17e6, 0.4999, 1100},
+        {1, 1, 1, 1.7845759660682243e-4, 17e6, 0.07682073516354182, 300}, /* terms of energy that are rounded alike */
         {0, 0, 0, 5e-4, 17e6, 0.3, 1100},
         {1, 1, 1, 0, 17e6, 0.3, 1100},
     };
