@@ -201,19 +201,3 @@ void golden_report_free(struct golden_report *report)
     free(report->line);
     *report = (struct golden_report){0};
 }
-
-bool golden_check_record(const char *stored_path, const struct solver_record *fresh, struct golden_report *report,
-                         struct solver_error *error)
-{
-    *report = (struct golden_report){0};
-    struct solver_record *stored;
-    if (!solver_record_read(stored_path, &stored, error)) {
-        const size_t used = strlen(error->text);
-        (void)snprintf(error->text + used, sizeof error->text - used,
-                       "; `assay golden update SCENE` writes the stored record anew");
-        return false;
-    }
-    bool ok = golden_compare(stored, fresh, report, error);
-    solver_record_free(stored);
-    return ok;
-}

@@ -1,9 +1,7 @@
-/* Stored results and pictures, and the comparison with them. Knows render's picture difference and the record
- * format. */
+/* Stored results, and the comparison with them. Knows the record format; pictures are compared by render. */
 #ifndef GOLDEN_GOLDEN_H
 #define GOLDEN_GOLDEN_H
 
-#include "render/render.h"
 #include "solver/record.h"
 
 /* The comparison of one field. */
@@ -27,15 +25,5 @@ struct golden_report {
 bool golden_compare(const struct solver_record *stored, const struct solver_record *fresh, struct golden_report *report,
                     struct solver_error *error);
 void golden_report_free(struct golden_report *report);
-
-/* Reads the stored record and compares. A missing one is an error that says how to make it. */
-bool golden_check_record(const char *stored_path, const struct solver_record *fresh, struct golden_report *report,
-                         struct solver_error *error);
-
-/* Reads the stored picture and compares; where they differ, writes the fresh one and the difference beside it: for
- * NAME.png these are NAME.fresh.png and NAME.difference.png; where they do not, removes what an earlier failure left.
- * False on pictures that cannot be compared. difference->picture is NULL. */
-bool golden_check_image(const char *stored_path, const struct render_image *fresh, struct render_difference *difference,
-                        struct solver_error *error);
 
 #endif

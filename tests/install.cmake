@@ -8,7 +8,7 @@ set(program ${prefix}/${CMAKE_INSTALL_BINDIR}/assay)
 
 # Here too, so that the analyser sees them.
 add_executable(install_libraries ${here}/libraries/libraries.c)
-target_link_libraries(install_libraries PRIVATE assay_golden assay_oracles)
+target_link_libraries(install_libraries PRIVATE assay_golden assay_oracles assay_render)
 add_executable(example_pulse ${CMAKE_SOURCE_DIR}/examples/pulse-c/pulse.c)
 target_link_libraries(example_pulse PRIVATE assay_oracles)
 
