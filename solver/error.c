@@ -15,22 +15,36 @@ bool solver_fail(struct solver_error *error, enum solver_code code, const char *
     return false;
 }
 
-/* Bytes of the character that begins here, none of them a control character; 0 if it is no such character. */
-static size_t printable(const unsigned char *c)
+size_t solver_utf8(const char *text)
 {
-    size_t length = c[0] < 0x80 ? 1 : c[0] >= 0xC2 && c[0] < 0xE0 ? 2 : c[0] >= 0xE0 && c[0] < 0xF0 ? 3 : 4;
-    bool control = c[0] < ' ' || c[0] == 0x7F || (c[0] == 0xC2 && c[1] < 0xA0); /* C0, DEL, C1 */
-    bool begins = c[0] < 0x80 || (c[0] >= 0xC2 && c[0] < 0xF5);
-    for (size_t i = 1; begins && i < length; i++) {
-        begins = (c[i] & 0xC0) == 0x80; /* the end of the text does not */
+    const unsigned char *c = (const unsigned char *)text;
+    if (c[0] < 0x80) {
+        return 1;
     }
-    return begins && !control ? length : 0;
+    size_t length = c[0] >= 0xF0 ? 4 : c[0] >= 0xE0 ? 3 : 2;
+    if (c[0] < 0xC2 || c[0] > 0xF4) {
+        return 0;
+    }
+    for (size_t i = 1; i < length; i++) {
+        if ((c[i] & 0xC0) != 0x80) { /* as the end of the text is not */
+            return 0;
+        }
+    }
+    bool wrong = (c[0] == 0xE0 && c[1] < 0xA0) || (c[0] == 0xED && c[1] > 0x9F) || (c[0] == 0xF0 && c[1] < 0x90) ||
+                 (c[0] == 0xF4 && c[1] > 0x8F);
+    return wrong ? 0 : length;
+}
+
+/* C0, DEL and C1. */
+static bool is_control(const unsigned char *c)
+{
+    return c[0] < ' ' || c[0] == 0x7F || (c[0] == 0xC2 && c[1] < 0xA0);
 }
 
 void solver_plain(char *text, bool lines)
 {
     for (unsigned char *c = (unsigned char *)text; *c != '\0';) {
-        size_t length = printable(c);
+        size_t length = is_control(c) ? 0 : solver_utf8((const char *)c);
         if (length == 0 && !(lines && *c == '\n')) {
             *c = strchr("\t\n", *c) != NULL ? ' ' : '?';
         }

@@ -3,35 +3,15 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Bytes of the valid UTF-8 sequence at `c`; 0 if there is none (overlong, surrogate, cut short, out of range). */
-static size_t sequence(const unsigned char *c)
-{
-    if (c[0] < 0x80) {
-        return 1;
-    }
-    size_t length = c[0] >= 0xF0 ? 4 : c[0] >= 0xE0 ? 3 : 2;
-    if (c[0] < 0xC2 || c[0] > 0xF4) {
-        return 0;
-    }
-    for (size_t i = 1; i < length; i++) {
-        if ((c[i] & 0xC0) != 0x80) {
-            return 0;
-        }
-    }
-    bool wrong = (c[0] == 0xE0 && c[1] < 0xA0) || (c[0] == 0xED && c[1] > 0x9F) || (c[0] == 0xF0 && c[1] < 0x90) ||
-                 (c[0] == 0xF4 && c[1] > 0x8F);
-    return wrong ? 0 : length;
-}
-
 void verify_json_string(FILE *file, const char *text)
 {
     (void)fputc('"', file);
-    for (const unsigned char *c = (const unsigned char *)text; *c != '\0';) {
-        size_t length = sequence(c);
+    for (const char *c = text; *c != '\0';) {
+        size_t length = solver_utf8(c);
         if (*c == '"' || *c == '\\') {
             (void)fprintf(file, "\\%c", *c);
-        } else if (*c < 0x20 || *c == 0x7F) {
-            (void)fprintf(file, "\\u%04x", *c);
+        } else if (length == 1 && (*c < ' ' || *c == 0x7F)) {
+            (void)fprintf(file, "\\u%04x", (unsigned)*c);
         } else if (length == 0) {
             (void)fputs("\\ufffd", file);
         } else {

@@ -34,7 +34,12 @@ static void test_goes(void)
     expect("\2332J", "?2J");      /* and as one byte */
     expect("\303", "?");          /* cut short */
     expect("\345\233", "??");
-    expect("\300\233", "??"); /* an escape in two bytes */
+    expect("\300\233", "??");           /* an escape in two bytes */
+    expect("\340\200\233", "???");      /* and in three */
+    expect("\340\202\233", "???");      /* CSI in three */
+    expect("\360\200\200\233", "????"); /* an escape in four */
+    expect("\355\240\200", "???");      /* half of a surrogate pair */
+    expect("\364\220\200\200", "????"); /* beyond the last character */
     expect("\377\376", "??");
 }
 
