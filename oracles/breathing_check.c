@@ -92,7 +92,7 @@ static void second(const struct self_check *check, const double X[3], double t, 
     const struct breathing *g = &check->oracle->given;
     const struct waves *w = check->with;
     const struct moduli of = moduli(g);
-    double r = shell_radius(&g->body, X), swing = w->amplitude * cos(w->frequency * t), G[9] = {0}, trace = 0;
+    double r = shell_radius(&g->body, X), swing = w->amplitude * cos(w->frequency * t), G[9] = {0};
     double rate = -w->amplitude * w->frequency * sin(w->frequency * t);
     struct means m = means(g->body.dim, w->k * r);
     memset(state, 0, sizeof *state);
@@ -103,13 +103,11 @@ static void second(const struct self_check *check, const double X[3], double t, 
         for (int j = 0; j < g->body.dim; j++) {
             G[3 * i + j] = swing * w->k * ((i == j ? m.across : 0) + m.apart * (X[i] / r) * (X[j] / r));
         }
-        trace += G[4 * i];
     }
     for (int i = 0; i < 9; i++) {
-        double unit = i % 4 == 0 ? 1 : 0;
-        state->F[i] = unit + G[i];
-        state->P[i] = of.mu * (G[i] + G[i % 3 * 3 + i / 3]) + unit * (of.bulk - 2 * of.mu / 3) * trace;
+        state->F[i] = (i % 4 == 0 ? 1 : 0) + G[i];
     }
+    self_check_hooke(of.bulk, of.mu, G, state->P);
 }
 
 /* The surface goes out by U0, all at once, and is let go at rest. */

@@ -21,15 +21,6 @@ static double amplitude(const struct oracle *o)
     return fabs(o->given.tip_velocity) / o->frequency;
 }
 
-/* P = lambda tr(e) I + 2 mu e by way of the bulk modulus, from the gradient of the displacement. */
-static void hooke(const struct self_check *check, const double G[9], double P[9])
-{
-    double trace = G[0] + G[4] + G[8];
-    for (int i = 0; i < 9; i++) {
-        P[i] = check->mu * (G[i] + G[i % 3 * 3 + i / 3]) + (i % 4 == 0 ? (check->bulk - 2 * check->mu / 3) * trace : 0);
-    }
-}
-
 /* Strain across the plate: none in plane strain; in plane stress what leaves P_zz = 0. */
 static double across(const struct self_check *check, const double G[9])
 {
@@ -71,7 +62,7 @@ static void differentiate(struct self_check *check, size_t i, struct self_check_
     for (int k = 0; k < 3; k++) {
         momentum[k] = check->rho * state.v[k];
     }
-    hooke(check, own, P);
+    self_check_hooke(check->bulk, check->mu, own, P);
     self_check_measure(&law[VELOCITY], state.v, along[3].u, 3);
     self_check_measure(&law[MOMENTUM], state.p, momentum, 3);
     self_check_measure(&law[GRADIENT], own, G, 9);
@@ -160,25 +151,16 @@ static void second(const struct self_check *check, const double X[3], double t, 
     }
     G[8] = across(check, G);
     state->F[8] += G[8];
-    hooke(check, G, state->P);
+    self_check_hooke(check->bulk, check->mu, G, state->P);
 }
 
-/* p.v/2, and dev(P):dev(P)/(4 mu) + tr(P)^2/(18 K): per volume [J/m^3]. */
+/* Per volume [J/m^3]. */
 static struct plate_energies density(const struct self_check *check, const double X[3], double t)
 {
     struct oracle_state s;
-    struct plate_energies e = {0};
     check->kind->state(check->oracle, X, t, &s);
-    double trace = s.P[0] + s.P[4] + s.P[8];
-    for (int i = 0; i < 9; i++) {
-        double dev = s.P[i] - (i % 4 == 0 ? trace / 3 : 0);
-        e.strain += dev / (4 * check->mu) * dev;
-    }
-    e.strain += trace / (18 * check->bulk) * trace;
-    for (int i = 0; i < 3; i++) {
-        e.kinetic += s.p[i] * s.v[i] / 2;
-    }
-    return e;
+    return (struct plate_energies){.kinetic = (s.p[0] * s.v[0] + s.p[1] * s.v[1] + s.p[2] * s.v[2]) / 2,
+                                   .strain = self_check_complementary(check->bulk, check->mu, s.P)};
 }
 
 /* Over the upper half, which a line of its own shows to be the mirror image of the lower, element by element. */

@@ -17,17 +17,6 @@ static void evaluate(const struct self_check *check, const struct self_check_spo
     check->kind->state(check->oracle, spot->X, spot->t, state);
 }
 
-/* P = K tr(e) I + 2 mu dev(e), e = (G + G^T)/2. */
-static void hooke(const struct self_check_body *of, const double G[9], double P[9])
-{
-    double trace = G[0] + G[4] + G[8];
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++) {
-            P[3 * i + j] = of->mu * (G[3 * i + j] + G[3 * j + i]) + (i == j ? (of->bulk - 2 * of->mu / 3) * trace : 0);
-        }
-    }
-}
-
 static void displacement_gradient(const double F[9], double G[9])
 {
     for (int i = 0; i < 9; i++) {
@@ -83,7 +72,7 @@ static void differentiate(struct self_check *check, size_t i, struct self_check_
     if (check->material != NULL) {
         check->material->stress(check, spot.X, spot.t, G, P);
     } else {
-        hooke(&spot.body, G, P);
+        self_check_hooke(spot.body.bulk, spot.body.mu, G, P);
     }
     measure_derivative(&law[0], spot.step, state.v, along[3].u, 3);
     self_check_measure(&law[1], state.p, momentum, 3);
@@ -208,17 +197,6 @@ void self_check_compare(struct self_check *check, self_check_second *second, dou
     self_check_line(check, "second evaluation: P", self_check_relative(P.error, check->of.stress), bound);
 }
 
-/* dev(P):dev(P)/(4 mu) + tr(P)^2/(18 K) [J/m^3]. */
-static double complementary(const struct self_check_body *body, const double P[9])
-{
-    double trace = P[0] + P[4] + P[8], strain = trace / (18 * body->bulk) * trace;
-    for (int i = 0; i < 9; i++) {
-        double dev = P[i] - (i % 4 == 0 ? trace / 3 : 0);
-        strain += dev / (4 * body->mu) * dev;
-    }
-    return strain;
-}
-
 struct moment {
     const struct self_check *check;
     double t;
@@ -234,7 +212,8 @@ static void energy_density(const struct self_check_body *body, const struct orac
     for (int i = 0; i < 3; i++) {
         sum[0] += weight * state->p[i] * state->v[i] / 2;
     }
-    sum[1] += weight * (own ? material->energy(at->check, X, at->t, state) : complementary(body, state->P));
+    sum[1] += weight * (own ? material->energy(at->check, X, at->t, state)
+                            : self_check_complementary(body->bulk, body->mu, state->P));
 }
 
 void self_check_energies(struct self_check *check)

@@ -67,6 +67,24 @@ struct self_check_body self_check_body(const struct self_check *check, int which
     return which == 0 ? body : *check->behind;
 }
 
+void self_check_hooke(double bulk, double mu, const double G[9], double P[9])
+{
+    double trace = G[0] + G[4] + G[8];
+    for (int i = 0; i < 9; i++) {
+        P[i] = mu * (G[i] + G[i % 3 * 3 + i / 3]) + (i % 4 == 0 ? (bulk - 2 * mu / 3) * trace : 0);
+    }
+}
+
+double self_check_complementary(double bulk, double mu, const double P[9])
+{
+    double trace = P[0] + P[4] + P[8], energy = trace / (18 * bulk) * trace;
+    for (int i = 0; i < 9; i++) {
+        double dev = P[i] - (i % 4 == 0 ? trace / 3 : 0);
+        energy += dev / (4 * mu) * dev;
+    }
+    return energy;
+}
+
 double self_check_modulus(const struct self_check_body *body)
 {
     return body->bulk + 4 * body->mu / 3;

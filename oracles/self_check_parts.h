@@ -29,6 +29,10 @@ double self_check_gradient_scale(const struct self_check *check, double bound);
 /* The body that holds everything, or the one before (0) or behind (1) the interface. */
 struct self_check_body self_check_body(const struct self_check *check, int which);
 int self_check_bodies(const struct self_check *check);
+/* Hooke's law: P = K tr(e) I + 2 mu dev(e) [Pa], e = (G + G^T)/2, from the displacement gradient G; and its
+ * complementary energy, dev(P):dev(P)/(4 mu) + tr(P)^2/(18 K) [J/m^3]. All tensors row by row. */
+void self_check_hooke(double bulk, double mu, const double G[9], double P[9]);
+double self_check_complementary(double bulk, double mu, const double P[9]);
 /* p-wave modulus [Pa] and speed [m/s]. */
 double self_check_modulus(const struct self_check_body *body);
 double self_check_speed(const struct self_check_body *body);
