@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_PACKED = 1032 /* deflate shrinks nothing by more */, MOST_LINKS = 1024, MOST_TEXT = 65536, MOST_RANK = 3 };
+enum { MOST_LINKS = 1024, MOST_TEXT = 65536, MOST_RANK = 3 };
 
 bool foreign_refuse(struct foreign *foreign, const char *where, const char *format, ...)
 {
@@ -127,8 +127,8 @@ static bool shape_of(struct foreign *foreign, hid_t data, const char *name, stru
     }
     block->rows = dims[0];
     block->width = 0;
-    if (dims[1] > foreign->bytes * MOST_PACKED || __builtin_mul_overflow(dims[1], dims[2], &block->width) ||
-        dims[2] > foreign->bytes * MOST_PACKED) {
+    if (dims[1] > foreign->bytes * VERIFY_MOST_PACKED || __builtin_mul_overflow(dims[1], dims[2], &block->width) ||
+        dims[2] > foreign->bytes * VERIFY_MOST_PACKED) {
         return foreign_refuse(foreign, name, "claims %llu x %llu x %llu values", (unsigned long long)dims[0],
                               (unsigned long long)dims[1], (unsigned long long)dims[2]);
     }
@@ -178,7 +178,7 @@ static bool is_stored_here(struct foreign *foreign, hid_t data, const char *name
     if (!plain) {
         return foreign_refuse(foreign, name, "is stored elsewhere, or packed by other means than deflate");
     }
-    uint64_t most = filters > 0 ? stored * MOST_PACKED : stored;
+    uint64_t most = filters > 0 ? stored * VERIFY_MOST_PACKED : stored;
     if (stored > foreign->bytes || !chunk_known || chunk > (most > 65536 ? most : 65536) ||
         __builtin_mul_overflow((uint64_t)block->rows, (uint64_t)block->width, &values) ||
         __builtin_mul_overflow(values, (uint64_t)size, &bytes) || bytes > most) {

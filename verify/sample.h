@@ -13,7 +13,8 @@ enum {
     VERIFY_SAMPLE_FIELDS = 64,
     VERIFY_SAMPLE_NAME = 64,
     VERIFY_SAMPLE_UNIT = 32,
-    VERIFY_SAMPLE_PLACE = 512
+    VERIFY_SAMPLE_PLACE = 512,
+    VERIFY_MOST_PACKED = 1032 /* deflate shrinks nothing by more: what a file can hold is its size times this */
 };
 
 struct verify_sample_field {

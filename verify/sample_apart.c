@@ -10,8 +10,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { MOST_PACKED = 1032 /* deflate shrinks nothing by more */ };
-
 /* What goes before each sample; its own pointers mean nothing to the other side. */
 struct message {
     bool ok, weights;
@@ -105,7 +103,7 @@ static bool ends(const char *text, size_t size)
 static bool is_sound(const struct message *message, size_t bytes)
 {
     const struct verify_sample *sample = &message->sample;
-    size_t most = bytes * MOST_PACKED;
+    size_t most = bytes * VERIFY_MOST_PACKED;
     bool sound = message->samples >= 1 && message->samples <= VERIFY_SAMPLES && sample->count >= 1 &&
                  sample->count <= most && sample->dim >= 1 && sample->dim <= 3 && sample->n >= 0 &&
                  sample->field_count <= VERIFY_SAMPLE_FIELDS && ends(sample->place, sizeof sample->place) &&

@@ -1,4 +1,5 @@
 #include "verify/vtu_data.h"
+#include "verify/sample.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -7,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
-
-enum { MOST_PACKED = 1032 }; /* deflate shrinks nothing by more */
 
 static const struct {
     const char *name;
@@ -26,12 +25,6 @@ static size_t type_of(const char *name)
         type++;
     }
     return type;
-}
-
-size_t vtu_type_size(const char *name)
-{
-    size_t type = type_of(name);
-    return type < TYPES ? types[type].size : 0;
 }
 
 /* Reads bytes from a source one after the other. */
@@ -216,7 +209,7 @@ static bool take_packed(const struct vtu_storage *storage, struct stream *stream
     }
     uint64_t full = last == 0 ? blocks : blocks - 1;
     bool fits = blocks > 0 && blocks <= left(stream) && last <= each && (full == 0 || each <= bytes / full) &&
-                full * each + last == bytes && bytes / MOST_PACKED <= left(stream);
+                full * each + last == bytes && bytes / VERIFY_MOST_PACKED <= left(stream);
     uint64_t *packed = fits ? calloc((size_t)blocks, sizeof *packed) : NULL;
     *out = packed != NULL ? malloc(bytes + 1) : NULL;
     if (!fits) {
@@ -301,7 +294,7 @@ bool vtu_numbers(const struct vtu_storage *storage, const struct vtu_source *sou
     }
     bool text = source->encoding == VTU_ASCII;
     size_t most = text            ? source->size / 2 + 1
-                  : storage->zlib ? source->size / types[known].size * MOST_PACKED + MOST_PACKED
+                  : storage->zlib ? source->size / types[known].size * VERIFY_MOST_PACKED + VERIFY_MOST_PACKED
                                   : source->size / types[known].size;
     if (count > most) {
         (void)snprintf(why, VTU_WHY, "should hold %zu numbers, more than its %zu bytes can", count, source->size);

@@ -21,9 +21,6 @@ struct vtu_source {
 
 enum { VTU_WHY = 256 };
 
-/* Bytes of one number of the type of this name, such as "Float64", 0 if it is none of VTK's. */
-size_t vtu_type_size(const char *name);
-
 /* Decodes `count` numbers of `type` into `value`. False, with `why` filled in, if the source does not hold exactly so
  * many. `count` may be anything: memory is asked for only once the source is known to be large enough. */
 bool vtu_numbers(const struct vtu_storage *storage, const struct vtu_source *source, const char *type, size_t count,

@@ -294,35 +294,34 @@ static void every_type_of_number(void)
 {
     static const struct {
         const char *type;
+        size_t size;
         unsigned char bytes[8];
         double value;
     } numbers[] = {
-        {"Int8", {0x80}, -128},
-        {"UInt8", {0xff}, 255},
-        {"Int16", {0xfe, 0xff}, -2},
-        {"UInt16", {0x01, 0x02}, 513},
-        {"Int32", {0xff, 0xff, 0xff, 0xff}, -1},
-        {"UInt32", {0, 0, 0, 0x80}, 2147483648.0},
-        {"Int64", {0, 0, 0, 0, 0, 0, 0, 0x80}, -9223372036854775808.0},
-        {"UInt64", {0, 0, 0, 0, 0, 0, 0, 0x80}, 9223372036854775808.0},
-        {"Float32", {0, 0, 0xc0, 0x3f}, 1.5},
-        {"Float64", {0, 0, 0, 0, 0, 0, 0xf8, 0xbf}, -1.5},
+        {"Int8", 1, {0x80}, -128},
+        {"UInt8", 1, {0xff}, 255},
+        {"Int16", 2, {0xfe, 0xff}, -2},
+        {"UInt16", 2, {0x01, 0x02}, 513},
+        {"Int32", 4, {0xff, 0xff, 0xff, 0xff}, -1},
+        {"UInt32", 4, {0, 0, 0, 0x80}, 2147483648.0},
+        {"Int64", 8, {0, 0, 0, 0, 0, 0, 0, 0x80}, -9223372036854775808.0},
+        {"UInt64", 8, {0, 0, 0, 0, 0, 0, 0, 0x80}, 9223372036854775808.0},
+        {"Float32", 4, {0, 0, 0xc0, 0x3f}, 1.5},
+        {"Float64", 8, {0, 0, 0, 0, 0, 0, 0xf8, 0xbf}, -1.5},
     };
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         static struct text bytes;
         double *value = NULL;
         char why[VTU_WHY] = "";
-        size_t size = vtu_type_size(numbers[i].type);
         struct vtu_storage storage = {.big_endian = false};
         bytes.size = 0;
-        put_integer(&bytes, size, 4, false);
-        put(&bytes, numbers[i].bytes, size);
+        put_integer(&bytes, numbers[i].size, 4, false);
+        put(&bytes, numbers[i].bytes, numbers[i].size);
         struct vtu_source source = {.encoding = VTU_RAW, .bytes = bytes.bytes, .size = bytes.size};
         CU_ASSERT_TRUE_FATAL(vtu_numbers(&storage, &source, numbers[i].type, 1, &value, why));
         CU_ASSERT_EQUAL(value[0], numbers[i].value);
         free(value);
     }
-    CU_ASSERT_EQUAL(vtu_type_size("String"), 0);
 }
 
 int main(void)
