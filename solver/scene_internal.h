@@ -42,6 +42,10 @@ int scene_key_find(const char *path);
 const struct scene_key *scene_key_rule(int index);
 /* Whether `name` is a key or the first part of one ("material"). */
 bool scene_key_is_root(const char *name);
+/* What must hold between plain keys, once they are read; fills in defaults that depend on others. */
+void scene_check_plain(lua_State *L, struct solver_scene *scene);
+/* The same of what depends on the bodies too: precision, the picture, and what is said twice. */
+void scene_check_bodies(lua_State *L, const struct solver_scene *scene);
 /* Refuses moduli, densities and lengths whose products leave the range of double precision. */
 void scene_check_range(lua_State *L, const struct solver_scene *scene);
 /* Whether `--set PATH=...` can mean anything; a name without dots may still be a parameter. */

@@ -74,6 +74,28 @@ static int read_word(lua_State *L, const struct solver_scene_key *key, const str
     return place;
 }
 
+static uint64_t read_seed(lua_State *L, const struct solver_scene_key *key)
+{
+    int whole = 0;
+    lua_Integer seed = lua_type(L, -1) == LUA_TNUMBER ? lua_tointegerx(L, -1, &whole) : 0;
+    if (!whole || seed < 0)
+        scene_refuse_value(L, key->key, key->expects, -1);
+    return (uint64_t)seed;
+}
+
+/* Of at most two. */
+static void read_integers(lua_State *L, const struct solver_scene_key *key, const struct scene_key *rule, int *out,
+                          size_t count)
+{
+    double pair[2];
+    scene_read_numbers(L, key->key, -1, pair, count);
+    for (size_t i = 0; i < count; i++) {
+        if (!(pair[i] >= rule->low && pair[i] <= rule->high && pair[i] == floor(pair[i])))
+            scene_refuse(L, "%s: expected %s, got %g in place %zu", key->key, key->expects, pair[i], i + 1);
+        out[i] = (int)pair[i];
+    }
+}
+
 /* Reads the value on top of the stack into its place within the scene. */
 static void read_value(lua_State *L, struct solver_scene *scene, int k)
 {
@@ -81,7 +103,6 @@ static void read_value(lua_State *L, struct solver_scene *scene, int k)
     const struct scene_key *rule = scene_key_rule(k);
     void *place = (char *)scene + rule->offset;
     size_t count = rule->count ? (size_t)rule->count : (size_t)scene->dim;
-    double pair[2];
     switch (rule->kind) {
     case SCENE_TEXT:
         scene_read_text(L, key->key, -1, place, rule->count ? (size_t)rule->count : SOLVER_TEXT);
@@ -104,24 +125,14 @@ static void read_value(lua_State *L, struct solver_scene *scene, int k)
     case SCENE_INTEGER:
         *(int *)place = read_integer(L, key->key, -1, rule->low, rule->high, key->expects);
         break;
-    case SCENE_SEED: {
-        int whole = 0;
-        lua_Integer seed = lua_type(L, -1) == LUA_TNUMBER ? lua_tointegerx(L, -1, &whole) : 0;
-        if (!whole || seed < 0)
-            scene_refuse_value(L, key->key, key->expects, -1);
-        *(uint64_t *)place = (uint64_t)seed;
+    case SCENE_SEED:
+        *(uint64_t *)place = read_seed(L, key);
         break;
-    }
     case SCENE_NUMBERS:
         scene_read_numbers(L, key->key, -1, place, count);
         break;
     case SCENE_INTEGERS:
-        scene_read_numbers(L, key->key, -1, pair, count);
-        for (size_t i = 0; i < count; i++) {
-            if (!(pair[i] >= rule->low && pair[i] <= rule->high && pair[i] == floor(pair[i])))
-                scene_refuse(L, "%s: expected %s, got %g in place %zu", key->key, key->expects, pair[i], i + 1);
-            ((int *)place)[i] = (int)pair[i];
-        }
+        read_integers(L, key, rule, place, count);
         break;
     case SCENE_FORMULA:
         if (!lua_isfunction(L, -1))
