@@ -346,49 +346,37 @@ static bool read_operand(const struct verify_command *command, const char *word,
     return true;
 }
 
-bool verify_options_parse(const struct verify_command *command, int count, char *const *words,
-                          struct verify_options *options, struct solver_error *error)
+/* Reads the option words[*at], and its value, which may be the word after it; *at is then the last of them. */
+static bool read_option(const struct verify_command *command, int count, char *const *words, int *at,
+                        struct verify_options *options, struct solver_error *error)
 {
-    *options = (struct verify_options){.operand_count = 0};
-    (void)snprintf(options->line, VERIFY_COMMAND_LINE, "assay %s", command->name);
-    bool words_only = false; /* after "--" */
-    for (int i = 0; i < count; i++) {
-        const char *word = words[i];
-        if (!words_only && strcmp(word, "--") == 0) {
-            words_only = true;
-            keep_words(NULL, 1, words + i, options->line);
-            continue;
-        }
-        if (words_only || word[0] != '-' || word[1] == '\0') {
-            keep_words(NULL, 1, words + i, options->line);
-            if (!read_operand(command, word, options, error)) {
-                return false;
-            }
-            continue;
-        }
-        size_t length = strcspn(word, "=");
-        const struct option *option = find(command, word, length);
-        if (option == NULL) {
-            return unknown(command, word, error);
-        }
-        bool attached = word[length] == '=';
-        int first = i;
-        const char *value = attached ? word + length + 1 : "";
-        if (option->value == NULL && attached) {
-            return bad(error, command, word, "takes no value");
-        }
-        if (option->value != NULL && !attached) {
-            if (i + 1 == count) {
-                return solver_fail(error, SOLVER_BAD_INPUT, "%s wants %s after it; see assay %s --help", word,
-                                   option->value, command->name);
-            }
-            value = words[++i];
-        }
-        keep_words(option, i - first + 1, words + first, options->line);
-        if (!apply(command, option, value, options, error)) {
-            return false;
-        }
+    int first = *at;
+    const char *word = words[first];
+    size_t length = strcspn(word, "=");
+    const struct option *option = find(command, word, length);
+    if (option == NULL) {
+        return unknown(command, word, error);
     }
+    bool attached = word[length] == '=';
+    const char *value = attached ? word + length + 1 : "";
+    if (option->value == NULL && attached) {
+        return bad(error, command, word, "takes no value");
+    }
+    if (option->value != NULL && !attached) {
+        if (first + 1 == count) {
+            return solver_fail(error, SOLVER_BAD_INPUT, "%s wants %s after it; see assay %s --help", word,
+                               option->value, command->name);
+        }
+        value = words[++*at];
+    }
+    keep_words(option, *at - first + 1, words + first, options->line);
+    return apply(command, option, value, options, error);
+}
+
+/* Whether all that was given belongs together, and nothing is missing. */
+static bool check_together(const struct verify_command *command, const struct verify_options *options,
+                           struct solver_error *error)
+{
     if (options->mutations && options->operand_count + options->override_count + options->level_count > 0) {
         return bad(error, command, "--mutations", "stands alone: it has scenes and oracles of its own");
     }
@@ -398,11 +386,34 @@ bool verify_options_parse(const struct verify_command *command, int count, char 
     if (options->as_stored && options->restart == NULL) {
         return bad(error, command, "--as-stored", "belongs to --restart");
     }
-    if (!options->help && !options->mutations && options->restart == NULL && options->operand_count < command->least) {
-        return solver_fail(error, SOLVER_BAD_INPUT, "assay %s wants %s; see assay %s --help", command->name,
-                           command->operands, command->name);
+    bool alone = options->help || options->mutations || options->restart != NULL;
+    return alone || options->operand_count >= command->least ||
+           solver_fail(error, SOLVER_BAD_INPUT, "assay %s wants %s; see assay %s --help", command->name,
+                       command->operands, command->name);
+}
+
+bool verify_options_parse(const struct verify_command *command, int count, char *const *words,
+                          struct verify_options *options, struct solver_error *error)
+{
+    *options = (struct verify_options){.operand_count = 0};
+    (void)snprintf(options->line, VERIFY_COMMAND_LINE, "assay %s", command->name);
+    bool words_only = false; /* after "--" */
+    for (int i = 0; i < count; i++) {
+        const char *word = words[i];
+        bool ends_options = !words_only && strcmp(word, "--") == 0;
+        if (!ends_options && !words_only && word[0] == '-' && word[1] != '\0') {
+            if (!read_option(command, count, words, &i, options, error)) {
+                return false;
+            }
+            continue;
+        }
+        keep_words(NULL, 1, words + i, options->line);
+        words_only = words_only || ends_options;
+        if (!ends_options && !read_operand(command, word, options, error)) {
+            return false;
+        }
     }
-    return true;
+    return check_together(command, options, error);
 }
 
 const char verify_by_levels[] = "a study runs several values of n; say which by --levels 4,8,16";
