@@ -249,8 +249,8 @@ static bool fits(const struct oracle *o, const double *value, char why[ORACLE_WH
 {
     const struct bimaterial_wave_given *g = &o->given;
     double v = peak_velocity(g), T1 = o->left.T, T2 = o->right.T, Z = fmax(o->left.Z, o->right.Z);
-    const double always[] = {o->left.c, o->left.Z, T1,    o->right.c,         o->right.Z,
-                             T2,        g->omega,  g->t1, g->omega * g->omega};
+    const double always[] = {g->E1, g->E2,    o->left.c, o->left.Z,          T1, o->right.c, o->right.Z,
+                             T2,    g->omega, g->t1,     g->omega * g->omega};
     const double moving[] = {g->A1,
                              v,
                              v * v,

@@ -126,7 +126,7 @@ static bool create(const double *value, struct oracle **oracle, char why[ORACLE_
                        g->moving, g->L, g->L / 4);
         return false;
     }
-    const double always[] = {o.bar.c, o.bar.Z, o.bar.T};
+    const double always[] = {g->E, o.bar.c, o.bar.Z, o.bar.T};
     const double moving[] = {g->U0, o.bar.Z * g->U0, o.bar.Z * g->U0 / g->E * g->moving,
                              g->moving * g->rho * g->U0 * g->U0};
     if (!oracle_representable(always, sizeof always / sizeof *always, false) ||

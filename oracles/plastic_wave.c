@@ -20,7 +20,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double LEAST_LAG = 1e-6; /* of the second wave behind the first, as a part of the way */
+static const double LEAST_LAG = 1e-6;  /* of the second wave behind the first, as a part of the way */
+static const double MOST_FLOWED = 2e3; /* plastic strain over the elastic: so stiff are the equations of its check */
 
 /* What is the same everywhere between two fronts. */
 struct zone {
@@ -191,6 +192,15 @@ static bool fits(const struct oracle *o, const double *value, char why[ORACLE_WH
                        "material.hardening = %g Pa: the plastic wave, with %.15g m/s, is too near to the elastic one "
                        "with %.15g m/s to tell the two apart; material.hardening = %g Pa would do",
                        g->hardening, o->speed[1], o->speed[0], o->mu);
+        return false;
+    }
+    double elastic = behind->yield_stress / (3 * o->mu);
+    if (!(behind->plastic <= MOST_FLOWED * elastic)) {
+        (void)snprintf(
+            why, ORACLE_WHY,
+            "v0 = %.15g m/s: the plastic strain, %g, is more than %g times the elastic strain of the yielding "
+            "material, %g; material.hardening = %g Pa would do",
+            g->v0, behind->plastic, MOST_FLOWED, elastic, 6 * o->mu / MOST_FLOWED);
         return false;
     }
     return true;

@@ -34,7 +34,7 @@ static const struct oracle_parameter linear_parameters[] = {
     {"material.rho", "kg/m^3", "density at rest", 0, INFINITY, true, false, 2785},
     {"material.c0", "m/s", "shock speed in the limit of weak shocks", 0, INFINITY, true, false, 5328},
     {"material.s", "-", "rise of the shock speed with the velocity behind the shock", 0, 100, false, false, 1.338},
-    {"material.Gamma0", "-", "Grueneisen's coefficient at rest; it goes with 1/rho", 0, INFINITY, false, false, 2},
+    {"material.Gamma0", "-", "Grueneisen's coefficient at rest; it goes with 1/rho", 0, 100, false, false, 2},
     {0},
 };
 

@@ -320,7 +320,9 @@ static bool fits(const struct oracle *o, const double *value, char why[ORACLE_WH
                        g->v2);
         return false;
     }
-    double size[] = {o->rod[0].c,
+    double size[] = {g->E1,
+                     g->E2,
+                     o->rod[0].c,
                      o->rod[1].c,
                      Z1,
                      Z2,

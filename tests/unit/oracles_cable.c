@@ -137,6 +137,7 @@ static void refuses_parts_that_do_not_fit(void)
     refuses(kind, (const struct setting[SETTINGS]){{"U0", 1e200}}, "range of double precision");
     refuses(kind, (const struct setting[SETTINGS]){{"U0", 1e-200}}, "range of double precision");
     refuses(kind, (const struct setting[SETTINGS]){{"material.rho", 1e-320}}, "range of double precision");
+    refuses(kind, (const struct setting[SETTINGS]){{"material.E", 5e-324}, {"material.rho", 1}}, "double precision");
 }
 
 int main(void)

@@ -153,6 +153,7 @@ static void holds_at_the_ends_of_its_parameters(void)
         {{"material.hardening", 0}},
         {{"material.hardening", 1e13}},
         {{"material.yield_stress", 1e-5}},
+        {{"material.yield_stress", 1e-5}, {"material.hardening", 6.6e7}}, /* hardly any of the strain is elastic */
         {{"material.yield_stress", 1e15}},
         {{"material.nu", 0}},
         {{"material.nu", 0.4999}, {"v0", 3000}},
@@ -174,6 +175,8 @@ static void refuses_what_it_cannot_tell_apart(void)
     refuses(kind, (const struct setting[SETTINGS]){{"material.hardening", 1e20}}, "too near to the elastic one");
     refuses(kind, (const struct setting[SETTINGS]){{"material.nu", 0.49999999}}, "too near to the elastic one");
     refuses(kind, (const struct setting[SETTINGS]){{"v0", 1e200}}, "range of double precision");
+    refuses(kind, (const struct setting[SETTINGS]){{"material.yield_stress", 1e4}, {"material.hardening", 1e5}},
+            "is more than 2000 times the elastic strain");
     refuses(kind, (const struct setting[SETTINGS]){{"v0", 0}}, "v0 = 0 [m/s]");
     refuses(kind, (const struct setting[SETTINGS]){{"material.hardening", -1}}, "material.hardening = -1 [Pa]");
     refuses(kind, (const struct setting[SETTINGS]){{"material.yield_stress", 0}}, "> 0 (yield stress");

@@ -257,6 +257,7 @@ static void refuses_what_no_shock_reaches(void)
     refuses(linear, (const struct setting[SETTINGS]){{"v0", 2e4}, {"material.s", 0}, {"material.Gamma0", 1}},
             "where the equation of state ends");
     refuses(linear, (const struct setting[SETTINGS]){{"material.s", -1}}, "material.s = -1 [-]");
+    refuses(linear, (const struct setting[SETTINGS]){{"material.Gamma0", 101}, {"v0", 1}}, "<= 100");
     refuses(stiff, (const struct setting[SETTINGS]){{"material.gamma", 1}}, "> 1 (ratio of specific heats)");
     refuses(stiff, (const struct setting[SETTINGS]){{"v0", 1e200}}, "range of double precision");
     refuses(stiff, (const struct setting[SETTINGS]){{"v0", -1}}, "v0 = -1 [m/s]");
