@@ -6,6 +6,7 @@ set -euo pipefail
 declare -A skipped=(
   [test_oracles_conformance]="eigenproblems as test_oracles_cantilever solves one, and what each oracle's own program calls: a minute"
   [test_oracles_self_check]="the self-checks of test_oracles_conformance: minutes"
+  [test_oracles_everywhere]="the self-checks of test_oracles_conformance, for two dozen sets of parameters each: minutes"
   [test_oracles_outside]="the eigenproblems of both cantilevers, to ask where their bodies are: minutes"
   [test_oracles_mutations_round]="the self-checks of test_oracles_breathing and test_oracles_tube, for each fault: 30 s"
   [test_oracles_mutations_every]="the self-check of test_oracles_conformance, again for each fault: minutes"
