@@ -27,8 +27,8 @@ bool solver_fail(struct solver_error *error, enum solver_code code, const char *
  * driven, become '?', as does what is no UTF-8, and tabs become blanks, as do ends of lines where `lines` does not let
  * them stay. */
 void solver_plain(char *text, bool lines);
-/* Bytes of the character of UTF-8 that begins at `c`, in text that ends with a zero; 0 if none does: cut short, longer
+/* Bytes of the character of UTF-8 that begins at `text`, which ends with a zero; 0 if none does: cut short, longer
  * than need be, half of a surrogate pair or beyond U+10FFFF (RFC 3629, section 4). */
-size_t solver_utf8(const char *c);
+size_t solver_utf8(const char *text);
 
 #endif
