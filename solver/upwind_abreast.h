@@ -4,7 +4,7 @@
 
 #include "solver/upwind.h"
 
-/* For no fewer particles than `least`: SIZE_MAX where registers are too narrow. */
+/* For no fewer particles than `least`: SIZE_MAX, and no loops, where registers are too narrow. */
 struct solver_abreast_loops {
     size_t least;
     void (*gradients)(const struct solver_upwind *work, size_t begin, size_t end);

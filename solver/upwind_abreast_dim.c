@@ -10,6 +10,7 @@ enum { IS_WORTH = GROUP > 1 && REGISTER_BYTES > 16 && (DIM < 3 || IN_SINGLE) };
 
 const struct solver_abreast_loops DIM_NAME(solver_abreast) = {
     .least = IS_WORTH ? GROUP : SIZE_MAX,
-    .gradients = aligned_gradients,
-    .rates = aligned_rates,
+    /* not even compiled where nothing calls them */
+    .gradients = IS_WORTH ? aligned_gradients : NULL,
+    .rates = IS_WORTH ? aligned_rates : NULL,
 };

@@ -14,6 +14,8 @@ assay_test(judge-vtk LABELS unit SKIP_CODE 77 COMMAND ${ASSAY_SYSTEM_PYTHON} ${C
 assay_test(judge-malformed LABELS mustfail UNTRAPPED "damaged files hold infinities" COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/judge_malformed.py
   $<TARGET_FILE:assay> ${judged} test-out/judge-malformed)
 set_tests_properties(judge-gates judge-malformed PROPERTIES FIXTURES_REQUIRED "program;judge_samples")
+# With sanitizers thousands of calls of the program: begun last it would keep one core busy alone.
+set_tests_properties(judge-malformed PROPERTIES COST 20)
 
 function(judge_refuses name text)
   assay_test(judge-${name} LABELS mustfail COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh 2 ${text} $<TARGET_FILE:assay> ${ARGN})

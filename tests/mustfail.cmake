@@ -47,7 +47,8 @@ function(assay_mutate name)
     # What other tools check is the file as it is.
     set_target_properties(mutated_${name}_${library} PROPERTIES EXPORT_COMPILE_COMMANDS OFF)
     target_compile_definitions(mutated_${name}_${library} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_DEFINITIONS>)
-    target_compile_options(mutated_${name}_${library} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_OPTIONS>)
+    # Run once, and compiled each time: GCC takes 13 s over the fluxes in 3D, and 1 s where it optimises nothing.
+    target_compile_options(mutated_${name}_${library} PRIVATE $<TARGET_PROPERTY:${library},COMPILE_OPTIONS> -O0)
     target_include_directories(mutated_${name}_${library} PRIVATE ${CMAKE_BINARY_DIR}/mutants/${name}
       ${CMAKE_SOURCE_DIR})
     target_include_directories(mutated_${name}_${library} SYSTEM PRIVATE
@@ -109,9 +110,6 @@ function(assay_unit_mutant name unit test)
     set(libraries assay_verify)
   endif()
   assay_mutate(${name} ${libraries})
-  foreach(library ${libraries}) # run once, and compiled each time
-    target_compile_options(mutated_${name}_${library} PRIVATE -O1)
-  endforeach()
   # The test's own objects, and of the frame all but a source that is broken: verify/trap.c.
   add_executable(mutant_${name} ${objects} $<TARGET_OBJECTS:test_${unit}>
     $<FILTER:${unit_frame},EXCLUDE,/${source}[.]>)

@@ -53,7 +53,7 @@ declare -A only=(
 # Of others these are left out, beside what repeats.txt names: the sanitizers see them.
 declare -A without=(
   [test_solver_run_walls]="carried along"      # walls of every kind in every dimension: 25 s
-  [test_solver_run_composite]="a step for materials that differ ten thousand times" # long runs
+  [test_solver_run_composite]="a step for materials that differ ten thousand times|the step where kernels cross" # long runs
   [test_solver_stencil_share]="runs give the same bits" # ten scenes, twice each: 40 s
   [test_solver_stencil_runs]="runs give the same bits|a wrong run is seen" # more scenes, on each path: minutes
   [test_solver_run_faces]="faces hold their components, also on edges and in corners" # every kind on every body: 27 s
@@ -61,6 +61,8 @@ declare -A without=(
   [test_solver_flow]="work is stored or dissipated; order of the return map" # thousands of return maps: 8 s
   [test_oracles_breathing]="holds at the ends of its parameters" # the self-check of "another mode is caught", again for thirty sets: 23 s
   [test_solver_cost]="so it is of what few scenes ask for" # thirty scenes: 8 s
+  [test_solver_perturbed]="steps are short enough" # 27 spectra, and test_solver_spectrum makes some: 33 s
+  [test_solver_slopes]="spectra of uneven bodies" # 20 of them; "momentum of a composite body" runs with such slopes: 67 s
 )
 while IFS='|' read -r program tests; do
   without[$program]+=${without[$program]:+|}$tests
