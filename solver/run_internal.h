@@ -58,8 +58,14 @@ struct solver_work {
 
 /* How many sweeps of a step, which has SOLVER_STAGE_SWEEPS a stage, go as one wave, from `first` on. */
 int solver_run_wave(const struct solver_run *run, int first);
-/* Whether stages should end waves: where what a step's sweeps have between them is more than the processor's own cache,
- * a stage's less of it, and the body lies in the cache before memory, so that passing through it twice costs less. */
+/* Whether stages should end waves: where what a step's sweeps have between them, the window, is more than the
+ * processor's own cache, a stage's less of it, and the body lies in the cache before memory, so that passing through it
+ * twice costs less. Bytes of both. */
+bool solver_run_parts(double body, double window);
+/* No more of the last cache counts. Large processors name what all their cores share (480 MiB), but one core reads no
+ * faster than from memory what is twice as large as this. */
+static const double SOLVER_WITHIN_REACH = 64.0 * 1048576.0;
+/* The same of a run. */
 bool solver_run_parts_stages(const struct solver_run *run);
 /* The waves of a step, which have been found once; no result depends on whether stages end them. */
 bool solver_run_make_waves(struct solver_run *run, bool by_stages, struct solver_error *error);
