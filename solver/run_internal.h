@@ -58,10 +58,12 @@ struct solver_work {
 
 /* How many sweeps of a step, which has SOLVER_STAGE_SWEEPS a stage, go as one wave, from `first` on. */
 int solver_run_wave(const struct solver_run *run, int first);
-/* Whether stages should end waves: where what a step's sweeps have between them, the window, is more than the
- * processor's own cache, a stage's less of it, and the body lies in the cache before memory, so that passing through it
- * twice costs less. Bytes of both. */
-bool solver_run_parts(double body, double window);
+/* Whether stages should end waves, by the bytes of the body and of the window, which is what a step's sweeps have
+ * between them; a stage's have less. They should where the window is more than the processor's own cache and the body
+ * lies in the cache before memory, so that passing through it for each stage costs little; and where the body lies in
+ * memory, if the window is so much more than that cache, half of it for each stage, that it goes to memory as well.
+ * Never where the system tells of no last cache. */
+bool solver_run_parts(double body, double window, int stages);
 /* No more of the last cache counts. Large processors name what all their cores share (480 MiB), but one core reads no
  * faster than from memory what is twice as large as this. */
 static const double SOLVER_WITHIN_REACH = 64.0 * 1048576.0;

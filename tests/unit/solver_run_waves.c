@@ -58,16 +58,21 @@ static void test_caches(void)
     finish(&sample);
 }
 
-/* Of bodies and windows. Whatever the system says of its last cache, a body beyond reach is not in it: one wave. */
+/* Of bodies and windows. Whatever the system says of its last cache, a body beyond reach is not in it: one wave, unless
+ * its window is not in it either. */
 static void test_reach(void)
 {
     double own = (double)solver_cache_bytes(2);
     double last = (double)solver_cache_bytes(3);
     double most = last < SOLVER_WITHIN_REACH ? last : SOLVER_WITHIN_REACH;
-    CU_ASSERT(solver_run_parts(most, own + 1.0));
-    CU_ASSERT_FALSE(solver_run_parts(most + 1.0, own + 1.0));
-    CU_ASSERT_FALSE(solver_run_parts(most, own));
-    CU_ASSERT_FALSE(solver_run_parts(SOLVER_WITHIN_REACH + 1.0, 2.0 * SOLVER_WITHIN_REACH));
+    bool told = last > 0.0;
+    CU_ASSERT_EQUAL(solver_run_parts(most, own + 1.0, 2), told);
+    CU_ASSERT_FALSE(solver_run_parts(most, own, 2));
+    CU_ASSERT_FALSE(solver_run_parts(most + 1.0, most, 2));
+    CU_ASSERT_EQUAL(solver_run_parts(most + 1.0, most + 1.0, 2), told);
+    CU_ASSERT_FALSE(solver_run_parts(most + 1.0, 2.0 * most, 4));
+    CU_ASSERT_EQUAL(solver_run_parts(most + 1.0, 2.0 * most + 1.0, 4), told);
+    CU_ASSERT_FALSE(solver_run_parts(SOLVER_WITHIN_REACH + 1.0, most, 2));
 }
 
 int main(void)
