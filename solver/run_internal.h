@@ -58,8 +58,16 @@ struct solver_work {
 
 /* How many sweeps of a step, which has SOLVER_STAGE_SWEEPS a stage, go as one wave, from `first` on. */
 int solver_run_wave(const struct solver_run *run, int first);
-/* Whether stages should end waves: where what a step's sweeps have between them is more than the processor's own cache,
- * a stage's less of it, and the body lies in the cache before memory, so that passing through it twice costs less. */
+/* Whether stages should end waves, by the bytes of the body and of the window, which is what a step's sweeps have
+ * between them; a stage's have less. They should where the window is more than the processor's own cache and the body
+ * lies in the cache before memory, so that passing through it for each stage costs little; and where the body lies in
+ * memory, if the window is so much more than that cache, half of it for each stage, that it goes to memory as well.
+ * Never where the system tells of no last cache. */
+bool solver_run_parts(double body, double window, int stages);
+/* No more of the last cache counts: large processors name what all their cores share. Of 480 MiB so named one core had
+ * 29 GB/s up to 32 MiB, 26 at 64, 20 at 128, and 17 at 256 as from memory. */
+static const double SOLVER_WITHIN_REACH = 80.0 * 1048576.0;
+/* The same of a run. */
 bool solver_run_parts_stages(const struct solver_run *run);
 /* The waves of a step, which have been found once; no result depends on whether stages end them. */
 bool solver_run_make_waves(struct solver_run *run, bool by_stages, struct solver_error *error);

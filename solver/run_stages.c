@@ -51,13 +51,20 @@ static size_t farthest(const struct solver_run *run)
     return most;
 }
 
+bool solver_run_parts(double body, double window, int stages)
+{
+    double last = fmin((double)solver_cache_bytes(3), SOLVER_WITHIN_REACH);
+    double most = body <= last ? (double)solver_cache_bytes(2) : last * stages / 2.0;
+    return last > 0.0 && window > most;
+}
+
 bool solver_run_parts_stages(const struct solver_run *run)
 {
     double each = solver_state_bytes_per_particle(&run->state, true) +
                   run->scheme->geometry(run->system).bytes / (double)run->cloud->count;
     int planes = SOLVER_STAGE_SWEEPS * run->integrator->stages + 2; /* one for each sweep, and what is beside them */
-    return each * (double)run->cloud->count <= (double)solver_cache_bytes(3) &&
-           each * (double)farthest(run) * planes > (double)solver_cache_bytes(2);
+    return solver_run_parts(each * (double)run->cloud->count, each * (double)farthest(run) * planes,
+                            run->integrator->stages);
 }
 
 bool solver_run_make_waves(struct solver_run *run, bool by_stages, struct solver_error *error)

@@ -51,11 +51,28 @@ static void test_caches(void)
     struct solver_error error;
     double each = solver_run_facts(sample.run).bytes_per_particle;
     bool more = each * 121 * 8 > (double)solver_cache_bytes(2);
-    bool fits = each * 1331 <= (double)solver_cache_bytes(3);
+    bool fits = each * 1331 <= (double)solver_cache_bytes(3); /* 1 MB, which is within reach */
     CU_ASSERT_EQUAL(solver_run_parts_stages(sample.run), more && fits);
     CU_ASSERT_EQUAL(sample.run->by_stages, more && fits);
     CU_ASSERT(solver_run_steps(sample.run, 1, &error));
     finish(&sample);
+}
+
+/* Of bodies and windows. Whatever the system says of its last cache, a body beyond reach is not in it: one wave, unless
+ * its window is not in it either. */
+static void test_reach(void)
+{
+    double own = (double)solver_cache_bytes(2);
+    double last = (double)solver_cache_bytes(3);
+    double most = last < SOLVER_WITHIN_REACH ? last : SOLVER_WITHIN_REACH;
+    bool told = last > 0.0;
+    CU_ASSERT_EQUAL(solver_run_parts(most, own + 1.0, 2), told);
+    CU_ASSERT_FALSE(solver_run_parts(most, own, 2));
+    CU_ASSERT_FALSE(solver_run_parts(most + 1.0, most, 2));
+    CU_ASSERT_EQUAL(solver_run_parts(most + 1.0, most + 1.0, 2), told);
+    CU_ASSERT_FALSE(solver_run_parts(most + 1.0, 2.0 * most, 4));
+    CU_ASSERT_EQUAL(solver_run_parts(most + 1.0, 2.0 * most + 1.0, 4), told);
+    CU_ASSERT_FALSE(solver_run_parts(SOLVER_WITHIN_REACH + 1.0, most, 2));
 }
 
 int main(void)
@@ -63,6 +80,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"one wave or a wave for each stage", test_stages},
         {"by the sizes of caches", test_caches},
+        {"no more of a cache than is within reach", test_reach},
     };
     return unit_main("solver run waves", tests, sizeof tests / sizeof *tests);
 }
