@@ -40,12 +40,12 @@ struct solver_stencil {
                          sorted by axis */
     size_t rank_count;
     struct solver_rank *rank; /* in order of particles (stencil_ranks.h); NULL: there are none, or nobody asked */
-    double *transposed;    /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
-    double *row_sum;       /* [count][dim] sum_b C_ab */
-    double *least_squares; /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
-                              (000_e9ec29e1bde7947d.txt eq. 37); NULL unless asked for */
-    double *V;             /* [count] [m^dim] */
-    double *own;           /* [count] what of V the part of a symmetric body has; NULL: all (symmetry.h) */
+    double *transposed;       /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
+    double *row_sum;          /* [count][dim] sum_b C_ab */
+    double *least_squares;    /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
+                                 (000_e9ec29e1bde7947d.txt eq. 37); NULL unless asked for */
+    double *V;                /* [count] [m^dim] */
+    double *own;              /* [count] what of V the part of a symmetric body has; NULL: all (symmetry.h) */
     size_t face_point_count;
     struct solver_face_point *face_point;
 };
