@@ -76,7 +76,7 @@ static void weigh(const struct solver_stencil *stencil, struct solver_rank *rank
 {
     size_t at[SOLVER_RANK_KINDS] = {rank->begin, rank->begin + 1, rank->end - 1};
     for (int kind = 0; kind < SOLVER_RANK_KINDS; kind++) {
-        struct member of;
+        struct member of = {.weight = {0}};
         (void)describe(stencil, at[kind], &of);
         for (int across = 0; across < 2; across++) {
             rank->weight[across][kind] = of.weight[across] / (2.0 * stencil->V[at[kind]]);

@@ -167,7 +167,7 @@ static inline __attribute__((always_inline)) void add_fluxes_as(const struct sid
                                                                 const struct impedances *of, bool stiffens)
 {
     struct impedances z = *of;
-    size_t of_axis = (size_t)(OF_AXES + pairs->I * AXIS_PLANES);
+    int of_axis = OF_AXES + pairs->I * AXIS_PLANES;
     struct ends from = {.a = pairs->of_a->of[0] + pairs->a,
                         .b = pairs->of_b->of[0] + pairs->b,
                         .a_I = pairs->of_a->of[of_axis] + pairs->a,
