@@ -404,8 +404,7 @@ static size_t first_rank(const struct solver_upwind *work, size_t a)
  * its operations. */
 static bool takes_pairs(const struct solver_upwind *work)
 {
-    return REGISTER_BYTES > 16 && work->rank != NULL && work->evolves_J && !work->frozen && work->reconstruct &&
-           work->lost == NULL;
+    return REGISTER_BYTES > 16 && work->rank != NULL && work->evolves_J && !work->frozen && work->reconstruct;
 }
 
 static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
@@ -420,6 +419,9 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end, so
     size_t count = takes_pairs(work) ? work->rank_count : 0;
     if (count > 0) {
         hand.z = impedances(work, constants, true);
+    }
+    if (count > 0 && work->lost != NULL) { /* the others note that; rates do not depend on who asks */
+        others(work, begin, end);
     }
     for (size_t r = count > 0 ? first_rank(work, begin) : 0; r < count && work->rank[r].begin < end; r++) {
         const struct solver_rank *rank = work->rank + r;
