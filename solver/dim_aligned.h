@@ -4,11 +4,11 @@
 #ifndef SOLVER_DIM_ALIGNED_H
 #define SOLVER_DIM_ALIGNED_H
 
-#include "solver/dim_inverse_root.h"
 #include "solver/dim_lines.h"
 #include "solver/dim_plain.h"
 #include "solver/dim_sums.h"
 #include "solver/dim_terms.h"
+#include "solver/dim_turned.h"
 #include "solver/upwind_abreast.h"
 
 /* Of particles that are abreast. */
@@ -161,11 +161,11 @@ static inline __attribute__((always_inline)) void turn_side(const struct solver_
     }
 }
 
-/* n^2 times the softening (softening of dim_fluxes.h), n^2 = (n . H^Ave N)^2: of the pairs of a turn, whose |along|^2
- * is the inverse of `inverse`. */
-static inline __attribute__((always_inline)) wide soft_square(const struct solver_upwind *work, const struct turn *turn,
-                                                              int I, const struct aligned_side *own,
-                                                              const wide along[TURNS], wide inverse)
+/* What pairs of a turn have become. */
+static inline __attribute__((always_inline)) struct turned turn_area(const struct solver_upwind *work,
+                                                                     const struct turn *turn, int I,
+                                                                     const struct aligned_side *own,
+                                                                     const wide along[TURNS], wide square)
 {
     wide area[TURNS]; /* twice */
     for (int t = 0; t < TURNS; t++) {
@@ -174,16 +174,10 @@ static inline __attribute__((always_inline)) wide soft_square(const struct solve
             area[t] += along_axis(2, I);
         }
     }
-    wide turned = (real)0.5 * dots_in_turn(along, area);
-    wide square = turned * turned * inverse;
-    wide bulk = join_each(own->z.bulk);
-    if (work->stiffness == NULL) {
-        return square * inverse_root(join_each(own->z.shear) + bulk * square);
-    }
-    wide of_b = gather_in_turn(work->stiffness, turn->b);
-    bulk *= larger_of(own->stiffness, of_b);
-    wide soft = square * inverse_root(join_each(own->z.shear) + bulk * square);
-    return only_where((own->stiffness > 0) & (of_b > 0), soft);
+    bool stiffens = work->stiffness != NULL;
+    wide of_b = stiffens ? gather_in_turn(work->stiffness, turn->b) : own->stiffness;
+    return turned_of(square, (real)0.5 * dots_in_turn(along, area), join_each(own->z.shear), join_each(own->z.bulk),
+                     own->stiffness, of_b, stiffens);
 }
 
 /* Where normals n turn with the body (add_fluxes of dim_fluxes.h); returns A n^2, times the softening. */
@@ -200,13 +194,16 @@ static inline __attribute__((always_inline)) wide add_turned(const struct solver
         }
     }
     wide square = dots_in_turn(along, along);
-    wide inverse = terms.volume ? (real)1.0 / square : square;
-    wide by_normal = terms.volume ? face * inverse : face / square; /* A / |along|^2 */
+    struct turned turned = {.inverse = square};
+    if (terms.volume) {
+        turned = turn_area(work, turn, I, own, along, square);
+    }
+    wide by_normal = terms.volume ? face * turned.inverse : face / square; /* A / |along|^2 */
     wide normal = dots_in_turn(along, jump) * by_normal;
     for (int t = 0; t < turn->count; t++) {
         sums->normals += of_turn(normal, t) * along[t];
     }
-    return terms.volume ? face * soft_square(work, turn, I, own, along, inverse) : face;
+    return terms.volume ? face * turned.soft : face;
 }
 
 static inline __attribute__((always_inline)) void add_along(const struct solver_upwind *work, const struct turn *turn,

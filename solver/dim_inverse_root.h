@@ -5,6 +5,8 @@
 
 #include "solver/dim_wide_bits.h"
 
+#include <stdbool.h>
+
 /* One step of the binomial series: with e = 1 - x r^2, x^(-1/2) = r (1 - e)^(-1/2). */
 static inline wide nearer_inverse_root(wide x, wide r)
 {

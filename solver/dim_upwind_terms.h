@@ -123,7 +123,7 @@ static inline void aligned_rate_terms(const struct solver_upwind *work, size_t c
     double turns = turns_of_lines(work, count);
     bool turned = !work->frozen;
     double along = turned ? (IN_SINGLE ? 4.0 : 3.0) * vector : 0.0;
-    double normal = turned ? 2.0 * FLOPS_DOTS_IN_TURN + (work->evolves_J ? 3.0 : 2.0) * vector : 0.0;
+    double normal = turned ? 2.0 * FLOPS_DOTS_IN_TURN + 2.0 * vector : 0.0;
     solver_cost_term(terms, "internal force", 2, pairs * 2.0 * vector + of_axes);
     solver_cost_term(terms, "dissipation of p", 2,
                      pairs * (3.0 * vector + along) + turns * normal + of_axes * (turned ? 2.0 : 1.0) +
@@ -131,7 +131,7 @@ static inline void aligned_rate_terms(const struct solver_upwind *work, size_t c
     solver_cost_term(terms, "reconstruction for p", 2, work->reconstruct ? pairs * 5.0 * vector + of_axes : 0.0);
     if (work->evolves_J) {
         double area = turned ? (IN_SINGLE ? 2.0 : 1.0) * vector : 0.0;
-        double each = 7.0 + FLOPS_INVERSE_ROOT + (work->stiffness != NULL ? 1.0 : 0.0);
+        double each = 10.0 + FLOPS_INVERSE_ROOT + (work->stiffness != NULL ? 1.0 : 0.0);
         double present = turned ? FLOPS_DOTS_IN_TURN + each * vector : 0.0; /* n^2, and impedance */
         solver_cost_term(terms, "dissipation of J", 2,
                          pairs * area + turns * (3.0 * vector + present) + of_axes + particles * OVER_TURNS);

@@ -174,6 +174,12 @@ static void wave_speeds(const struct solver_material_constants *material, const 
 
 /* --- loops over particles: the same, a lot at a time --- */
 
+/* 1 / J of J and its J^(-2/3): a division takes longer than all else here. */
+static inline lot inverse_of(lot J, lot root)
+{
+    return (root * root) * (root * J);
+}
+
 /* What a loop is compiled for. */
 struct reading {
     bool polyconvex, H, J; /* H and J of their own beside F */
@@ -186,8 +192,9 @@ stress_of_lot(struct constants of, const double *F, const double *H, const doubl
     struct tensors cof = reading.H ? load_tensors(H) : cofactors(&at);
     lot jacobian = reading.J ? load_lot(J) : determinants(&at);
     lot isochoric = reading.J && !reading.polyconvex ? determinants(&at) : jacobian;
-    lot shear = of.mu * inverse_square_of_cube_root(isochoric);
-    lot by_isochoric = shear * (squares(&at) + (3.0 - DIM)) / (-3.0 * isochoric);
+    lot root = inverse_square_of_cube_root(isochoric);
+    lot shear = of.mu * root;
+    lot by_isochoric = -1.0 / 3.0 * (shear * (squares(&at) + (3.0 - DIM))) * inverse_of(isochoric, root);
     lot pressure = of.kappa * (jacobian - 1.0);
     struct tensors P;
     if (reading.polyconvex || !reading.H) { /* one cofactor goes with both terms */
@@ -311,8 +318,9 @@ static inline __attribute__((always_inline)) double fastest_as(const struct solv
         struct tensors at = load_tensors(F + a * TENSOR_WIDTH);
         struct tensors cof = cofactors(&at);
         lot J = determinants(&at);
-        lot per_J = 1.0 / J;
-        lot shear = here.mu * inverse_square_of_cube_root(J);
+        lot root = inverse_square_of_cube_root(J);
+        lot per_J = inverse_of(J, root);
+        lot shear = here.mu * root;
         lot by_JJ = here.kappa + 5.0 / 9.0 * shear * (squares(&at) + (3.0 - DIM)) * (per_J * per_J);
         lot low;
         lot modulus = largest(shear, -2.0 / 3.0 * shear * per_J, by_JJ, J, square_bound(&at), square_bound(&cof), &low);
@@ -342,20 +350,22 @@ static double fastest(const struct solver_material_constants *material, size_t s
 enum {
     INVARIANT = LOT_SQUARES + 1,
     ROOT = 1 + LOT_ROOT,
+    INVERSE = 3,
     BOUND = DIM * (DIM + 1) / 2 * LOT_DOT + DIM * (DIM - 1), /* square_bound */
-    FASTEST = LOT_COFACTOR + LOT_DETERMINANT + 1 + ROOT + INVARIANT + 5 + 2 + 2 * BOUND + 17,
+    FASTEST = LOT_COFACTOR + LOT_DETERMINANT + INVERSE + ROOT + INVARIANT + 5 + 2 + 2 * BOUND + 17,
     ENERGY = FLOPS_CONTRACT + 1 + 2 + SOLVER_COST_FUNCTION + 9 /* of J */
 };
 
 static int stress_flops(bool H, bool J)
 {
     (void)J; /* det F is needed with an evolved one, too */
-    return LOT_COFACTOR + LOT_DETERMINANT + INVARIANT + ROOT + 3 + 2 + (H ? 5 * DIM * DIM : 1 + 3 * DIM * DIM);
+    return LOT_COFACTOR + LOT_DETERMINANT + INVARIANT + ROOT + INVERSE + 3 + 2 +
+           (H ? 5 * DIM * DIM : 1 + 3 * DIM * DIM);
 }
 
 static int stress_flops_polyconvex(bool H, bool J)
 {
-    return (H ? 0 : LOT_COFACTOR) + (J ? 0 : LOT_DETERMINANT) + INVARIANT + ROOT + 3 + 2 + 1 + 3 * DIM * DIM;
+    return (H ? 0 : LOT_COFACTOR) + (J ? 0 : LOT_DETERMINANT) + INVARIANT + ROOT + INVERSE + 3 + 2 + 1 + 3 * DIM * DIM;
 }
 
 const struct solver_material DIM_NAME(solver_neo_hookean) = {

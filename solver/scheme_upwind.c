@@ -38,6 +38,8 @@ static void bind_stencil(struct solver_upwind_system *system)
     system->work.shared = stencil->shared;
     system->work.along = stencil->along;
     system->work.abreast = stencil->abreast;
+    system->work.rank = stencil->rank;
+    system->work.rank_count = stencil->rank_count;
     system->work.narrow = stencil->narrow;
     system->work.unit = stencil->unit;
     system->work.transposed = stencil->transposed;
@@ -70,6 +72,9 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     bool least_squares = strcmp(scene->reconstruction, "least-squares") == 0;
     bool in_single = strcmp(scene->precision, "single") == 0;
     bool runs = align && (scene->dim < 3 || in_single); /* else loops take none: upwind_abreast_dim.c */
+    const struct solver_upwind *work = &system->work;
+    bool ranks = align && !in_single && system->body->stride == 0 && work->evolves_J && !work->frozen &&
+                 work->reconstruct && !work->whole_jump; /* else loops take none: upwind_ranks_dim.c */
     struct solver_stencil **stencil = &system->stencil;
     if (!solver_stencil_create(builder, cloud, scene->support, stencil, error) ||
         (least_squares && !solver_stencil_add_least_squares(*stencil, cloud, error)) ||
@@ -82,6 +87,7 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
            (!align || solver_stencil_align(*stencil, part, error)) && solver_stencil_share(*stencil, error) &&
            (!runs || solver_stencil_find_runs(*stencil, error)) &&
+           (!ranks || solver_stencil_find_ranks(*stencil, error)) &&
            (strcmp(scene->precision, "double") == 0 || solver_stencil_narrow(*stencil, error));
 }
 

@@ -191,6 +191,7 @@ void solver_stencil_free(struct solver_stencil *stencil)
     free(stencil->shared);
     free(stencil->along);
     free(stencil->abreast);
+    free(stencil->rank);
     free(stencil->narrow);
     free(stencil->transposed);
     free(stencil->row_sum);
@@ -255,6 +256,7 @@ void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_c
     solver_cost_array(arrays, group, "pairs along axes", stencil->along, stencil->count * lanes,
                       sizeof *stencil->along);
     solver_cost_array(arrays, group, "particles abreast", stencil->abreast, stencil->count, sizeof *stencil->abreast);
+    solver_cost_array(arrays, group, "ranks", stencil->rank, stencil->rank_count, sizeof *stencil->rank);
     solver_cost_array(arrays, group, "transposed", stencil->transposed, stencil->pairs * dim, sizeof(double));
     solver_cost_array(arrays, group, "least squares", stencil->least_squares, stencil->pairs * dim, sizeof(double));
     solver_cost_array(arrays, group, "row sums", stencil->row_sum, stencil->count * dim, sizeof(double));
@@ -278,7 +280,7 @@ size_t solver_stencil_bytes(const struct solver_stencil *stencil)
                           (stencil->abreast != NULL ? sizeof *stencil->abreast : 0) + (dim + 1) * sizeof(double) +
                           (stencil->own != NULL ? sizeof(double) : 0);
     return stencil->records * per_record + stencil->pairs * per_pair + stencil->count * per_particle +
-           stencil->face_point_count * sizeof *stencil->face_point;
+           stencil->face_point_count * sizeof *stencil->face_point + stencil->rank_count * sizeof *stencil->rank;
 }
 
 /* Keeps the larger of two, and a NaN, which fmax would lose. */

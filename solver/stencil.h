@@ -14,6 +14,7 @@
 #include "solver/cost.h"
 #include "solver/graph.h"
 #include "solver/material.h"
+#include "solver/stencil_ranks.h"
 
 struct solver_stencil {
     int dim;
@@ -37,12 +38,14 @@ struct solver_stencil {
     uint8_t *abreast; /* [count] how many particles from each on, 255 at most, are abreast: consecutive, their k-th
                          neighbours too, with one row of pair vectors and one volume; NULL unless rows are shared and
                          sorted by axis */
-    double *transposed;    /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
-    double *row_sum;       /* [count][dim] sum_b C_ab */
-    double *least_squares; /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
-                              (000_e9ec29e1bde7947d.txt eq. 37); NULL unless asked for */
-    double *V;             /* [count] [m^dim] */
-    double *own;           /* [count] what of V the part of a symmetric body has; NULL: all (symmetry.h) */
+    size_t rank_count;
+    struct solver_rank *rank; /* in order of particles (stencil_ranks.h); NULL: there are none, or nobody asked */
+    double *transposed;       /* [pairs][dim] D_ab = -C_ba; NULL where C is antisymmetric */
+    double *row_sum;          /* [count][dim] sum_b C_ab */
+    double *least_squares;    /* [pairs][dim] weights g with grad f_a = sum_b (f_b - f_a) g_ab
+                                 (000_e9ec29e1bde7947d.txt eq. 37); NULL unless asked for */
+    double *V;                /* [count] [m^dim] */
+    double *own;              /* [count] what of V the part of a symmetric body has; NULL: all (symmetry.h) */
     size_t face_point_count;
     struct solver_face_point *face_point;
 };
@@ -91,6 +94,8 @@ bool solver_stencil_share(struct solver_stencil *stencil, struct solver_error *e
 /* Finds particles that are abreast, as in the rows of a lattice: loops take several of them at a time. After rows are
  * sorted and shared, if they are. */
 bool solver_stencil_find_runs(struct solver_stencil *stencil, struct solver_error *error);
+/* Finds particles in ranks, in the plane, where rows are sorted. Before pairs are narrowed. */
+bool solver_stencil_find_ranks(struct solver_stencil *stencil, struct solver_error *error);
 /* Rounds pairs to single precision. Those that are opposite stay so, and sums of them are taken in double precision, so
  * that forces are equal and opposite to round-off of a double, and divergence and gradient each other's adjoint. Pairs
  * of sbp2, and of sbp4 away from the boundary, are whole multiples of the unit and stay as they are; elsewhere closure

@@ -1,6 +1,7 @@
 #define WIDE_LOTS
 #include "solver/upwind.h"
 #include "solver/upwind_abreast.h"
+#include "solver/upwind_ranks.h"
 
 #include "solver/dim_aligned.h"
 #include "solver/dim_fetch.h"
@@ -332,6 +333,14 @@ static inline __attribute__((always_inline)) void rates_with(const struct solver
     }
 }
 
+extern const struct solver_rank_loops DIM_NAME(solver_ranks);
+
+/* Of particles on lines that are in no rank: those abreast and others. */
+static void rates_on_lines(const struct solver_upwind *work, size_t begin, size_t end)
+{
+    in_runs(work, begin, end, DIM_NAME(solver_abreast).rates, aligned_rates);
+}
+
 static void rates(const struct solver_upwind *work, size_t begin, size_t end)
 {
     struct terms terms = {.frozen = work->frozen,
@@ -342,7 +351,11 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end)
                           .composite = work->stride != 0,
                           .narrow = work->narrow != NULL};
     if (aligns_rates(work)) {
-        in_runs(work, begin, end, DIM_NAME(solver_abreast).rates, aligned_rates);
+#ifdef SINGLE
+        rates_on_lines(work, begin, end);
+#else
+        DIM_NAME(solver_ranks).rates(work, begin, end, rates_on_lines);
+#endif
     } else if (!is_plain(work)) { /* rare: not worth a loop each */
         rates_with(work, begin, end, terms);
     } else {

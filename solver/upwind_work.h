@@ -6,12 +6,14 @@ struct SOLVER_WORK {
     const size_t *row;
     const uint32_t *neighbour;
     const double *pair, *transposed, *row_sum, *V;
-    const uint32_t *shared;      /* NULL: pair and narrow go by pairs */
-    const uint8_t *along;        /* [count][LANES] pairs of each row along each axis, in order; NULL: not all lie so */
-    const uint8_t *abreast;      /* [count] how many particles from each on are abreast (stencil.h); NULL: unknown */
-    const float *narrow;         /* in place of pair where the precision is mixed; NULL: it is double */
-    double unit;                 /* of narrow, and then of row_sum; else 1 */
-    const double *least_squares; /* NULL: reconstruct with the stencil's own gradient */
+    const uint32_t *shared; /* NULL: pair and narrow go by pairs */
+    const uint8_t *along;   /* [count][LANES] pairs of each row along each axis, in order; NULL: not all lie so */
+    const uint8_t *abreast; /* [count] how many particles from each on are abreast (stencil.h); NULL: unknown */
+    size_t rank_count;
+    const struct solver_rank *rank; /* [rank_count] particles in ranks (stencil_ranks.h); NULL: there are none */
+    const float *narrow;            /* in place of pair where the precision is mixed; NULL: it is double */
+    double unit;                    /* of narrow, and then of row_sum; else 1 */
+    const double *least_squares;    /* NULL: reconstruct with the stencil's own gradient */
 
     /* What the scene asks for. */
     const struct solver_material *material;

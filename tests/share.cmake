@@ -16,3 +16,5 @@ foreach(program test_solver_stencil_runs mutant_abreast-by-row)
     target_link_options(${program} PRIVATE -Wl,--wrap=solver_stencil_find_runs)
   endif()
 endforeach()
+# And of solver_stencil_find_ranks, with ranks and without.
+target_link_options(test_solver_stencil_ranks PRIVATE -Wl,--wrap=solver_stencil_find_ranks)

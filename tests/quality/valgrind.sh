@@ -56,6 +56,7 @@ declare -A without=(
   [test_solver_run_composite]="a step for materials that differ ten thousand times|the step where kernels cross" # long runs
   [test_solver_stencil_share]="runs give the same bits" # ten scenes, twice each: 40 s
   [test_solver_stencil_runs]="runs give the same bits|a wrong run is seen" # more scenes, on each path: minutes
+  [test_solver_stencil_ranks]="each pair once gives the same rates|a wrong weight is seen" # the same
   [test_solver_run_faces]="faces hold their components, also on edges and in corners" # every kind on every body: 27 s
   [test_solver_stencil]="every builder in 3D"  # schemes and materials are run in 3D: 20 s
   [test_solver_flow]="work is stored or dissipated; order of the return map" # thousands of return maps: 8 s

@@ -1,0 +1,20 @@
+/* Ranks: particles of a row of a lattice in the plane, each the neighbour of the next, and the rows below and above,
+ * which are neighbours as a whole. Loops then take every pair once for both its particles. */
+#ifndef SOLVER_STENCIL_RANKS_H
+#define SOLVER_STENCIL_RANKS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { SOLVER_RANK_FIRST, SOLVER_RANK_INSIDE, SOLVER_RANK_LAST, SOLVER_RANK_KINDS };
+
+/* Particles [begin, end), three or more. Those of a pair have one weight, |C_ab|, which is its face measure as well,
+ * and C_ab points as b lies. */
+struct solver_rank {
+    size_t begin, end;
+    size_t below, above;                 /* a - below and a + above are neighbours of a across; 0: none */
+    int axis;                            /* along which they follow one another */
+    double weight[2][SOLVER_RANK_KINDS]; /* [1/m] |C_ab| / 2 V_a of pairs along it and across; 0: there are none */
+};
+
+#endif
