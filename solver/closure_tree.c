@@ -198,16 +198,15 @@ static bool make_border(const struct solver_closure *of, struct borders *work, s
     return true;
 }
 
-static bool make_borders(struct solver_closure *of, uint32_t *seen, struct solver_error *error)
+static bool make_borders(const struct solver_closure *of, struct borders *work, struct solver_error *error)
 {
-    struct solver_closure_factor *factor = &of->factor;
-    struct borders work = {factor, seen, of->cloud->count};
-    if (!solver_alloc((void **)&factor->border, work.room, sizeof *factor->border, "borders of sets", error)) {
+    struct solver_closure_factor *factor = work->factor;
+    if (!solver_alloc((void **)&factor->border, work->room, sizeof *factor->border, "borders of sets", error)) {
         return false;
     }
     for (size_t n = 0; n < factor->node_count; n++) {
         struct solver_closure_node *node = &factor->node[n];
-        if (!make_border(of, &work, n)) {
+        if (!make_border(of, work, n)) {
             return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the borders of sets");
         }
         struct solver_front front = solver_front_of(factor, node);
@@ -243,7 +242,8 @@ bool solver_closure_tree(struct solver_closure *of, struct solver_error *error)
             factor->place[factor->particle[n]] = (uint32_t)n;
         }
         memset(work.kept, 0, count * sizeof *work.kept);
-        ok = make_borders(of, work.kept, error);
+        struct borders borders = {factor, work.kept, count};
+        ok = make_borders(of, &borders, error);
     }
     free(work.half);
     free(work.kept);
