@@ -156,7 +156,7 @@ static bool onto_border(struct borders *work, struct solver_closure_node *node, 
         return true;
     }
     if (factor->border_total == work->room) {
-        size_t room = 2 * work->room;
+        size_t room = 2 * work->room + 16;
         uint32_t *larger = realloc(factor->border, room * sizeof *larger);
         if (larger == NULL) {
             return false;
