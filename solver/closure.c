@@ -249,12 +249,14 @@ bool solver_closure_open(struct solver_closure *of, const struct solver_cloud *c
                          struct solver_error *error)
 {
     static const struct solver_closure_loops *const loops[][3] = SOLVER_LOOPS(solver_closure);
+    static const struct solver_front_loops *const fronts[][3] = SOLVER_LOOPS(solver_front);
     static const struct solver_closure_smoother *const smoothers[][3] = SOLVER_LOOPS(solver_closure_smoother);
     size_t count = cloud->count, dim = (size_t)cloud->dim;
     of->cloud = cloud;
     of->graph = graph;
     of->loops = loops[solver_path()][dim - 1];
     of->smoother = smoothers[solver_path()][dim - 1];
+    of->fronts = fronts[solver_path()][dim - 1];
     of->scale = 0.5 / cloud->spacing;
     size_t lanes = of->loops->lanes;
     size_t room = count * (dim + 1) * lanes;
@@ -320,6 +322,7 @@ bool solver_closure_ready(struct solver_closure *of, double radius, struct solve
 void solver_closure_close(struct solver_closure *of)
 {
     solver_closure_grids_free(of);
+    solver_closure_factor_free(&of->factor);
     free(of->residual);
     free(of->solution);
     free(of->direction);

@@ -10,10 +10,12 @@
  * iteration is that of conjugate residuals: M is singular, quadratic alpha have no energy, and what round-off leaves of
  * r there would grow in conjugate gradients. Work and memory grow with the number of pairs, but on a lattice whose
  * support holds nearest layers only: there alpha that vary along one axis alone have no energy either, and iterations
- * grow with the number of particles along an edge. */
+ * grow with the number of particles along an edge. In 1D and 2D, and of small clouds in 3D, a factor of M takes less
+ * time (closure_factor.h), and spline spaces are for what it leaves. */
 #ifndef SOLVER_CLOSURE_H
 #define SOLVER_CLOSURE_H
 
+#include "solver/closure_factor.h"
 #include "solver/graph.h"
 #include "solver/path.h"
 
@@ -45,7 +47,9 @@ struct solver_closure {
     const struct solver_graph *graph;
     const struct solver_closure_loops *loops;
     const struct solver_closure_smoother *smoother;
-    double *X;      /* [count][lanes] places [m] */
+    const struct solver_front_loops *fronts;
+    struct solver_closure_factor factor; /* closure_factor.h; without nodes where there is none */
+    double *X;                           /* [count][lanes] places [m] */
     double scale;   /* half a spacing's reciprocal [1/m]: turns distances into halves in spacings */
     double *weight; /* [pairs] */
     /* cells of the finest grid */

@@ -44,6 +44,7 @@ declare -A only=(
   [test_solver_roots]="what has none"                        # others: against long double, which valgrind rounds to double
   [test_solver_wave]="a front of sweeps"                     # others: clang's OpenMP loses memory where teams change size
   [test_solver_closure]="nested spaces"                      # others: solutions, over and over: minutes
+  [test_solver_closure_factor]="tree"                    # others: wide paths, and eliminations over and over
   [test_solver_single]="bytes|breakdown"                     # others: runs beside those in double precision: minutes
   [test_solver_symmetry]="whatever the terms"                # others: factorised stencils of balls and cylinders
   [test_solver_balance]="asked for"                          # others: more runs of the same

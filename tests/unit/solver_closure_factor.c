@@ -1,0 +1,197 @@
+/* The factor of a closed stencil's equation: a tree that holds every particle once, solutions that solve the equation,
+ * the same bytes for any number of threads and on both wide paths, and none where it would cost too much. */
+#include "solver/closure.h"
+#include "solver/kernel.h"
+#include "tests/unit/clouds.h"
+#include "tests/unit/unit.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct system {
+    struct solver_cloud *cloud;
+    struct solver_graph graph;
+    struct solver_closure closure;
+    bool made;
+    size_t width; /* numbers of a vector per particle */
+};
+
+static void open_system(struct system *of, int dim, int edge, double perturb, double support)
+{
+    struct solver_box box = clouds_box(dim, edge, perturb, 31);
+    double radius = support * box.spacing * (1.0 - solver_kernel_margin);
+    struct solver_error error;
+    *of = (struct system){.cloud = clouds_make(&box)};
+    CU_ASSERT_PTR_NOT_NULL_FATAL(of->cloud);
+    CU_ASSERT_FATAL(solver_graph_build(of->cloud, radius, &of->graph, &error));
+    CU_ASSERT_FATAL(solver_closure_open(&of->closure, of->cloud, &of->graph, &error));
+    for (size_t a = 0; a < of->cloud->count; a++) {
+        for (size_t ab = of->graph.row[a]; ab < of->graph.row[a + 1]; ab++) {
+            double square = 0.0, slope;
+            for (size_t i = 0; i < (size_t)dim; i++) {
+                double d = of->cloud->X[of->graph.neighbour[ab] * (size_t)dim + i] - of->cloud->X[a * (size_t)dim + i];
+                square += d * d;
+            }
+            of->closure.weight[ab] = solver_kernel(2.0 * sqrt(square) / radius, &slope);
+        }
+    }
+    CU_ASSERT_FATAL(solver_closure_factor_make(&of->closure, &of->made, &error));
+    of->width = (size_t)(dim + 1) * of->closure.loops->lanes;
+}
+
+static void close_system(struct system *of)
+{
+    solver_closure_close(&of->closure);
+    solver_graph_free(&of->graph);
+    solver_cloud_free(of->cloud);
+}
+
+/* M u of random u, which has a solution. */
+static void fill(struct system *of)
+{
+    struct solver_closure *closure = &of->closure;
+    uint64_t state = 5;
+    for (size_t i = 0; i < of->cloud->count * of->width; i++) {
+        closure->z[i] = i % closure->loops->lanes < (size_t)of->cloud->dim ? clouds_random(&state) : 0.0;
+    }
+    closure->loops->apply(closure, closure->z, closure->residual, 0, of->cloud->count);
+}
+
+/* Takes what a solution gives from the residual; returns the largest that is left. */
+static double repeat(struct system *of)
+{
+    struct solver_closure *closure = &of->closure;
+    solver_closure_substitute(closure, closure->residual, closure->z);
+    closure->loops->apply(closure, closure->z, closure->image, 0, of->cloud->count);
+    for (size_t i = 0; i < of->cloud->count * of->width; i++) {
+        closure->residual[i] -= closure->image[i];
+    }
+    return solver_closure_largest(closure, closure->residual);
+}
+
+/* Every particle is at one place, borders ascend and come later, and of every pair the later one is on the border of
+ * the earlier one's node or beside it there. */
+static void tree(void)
+{
+    for (int dim = 1; dim <= 3; dim++) {
+        struct system of;
+        open_system(&of, dim, dim == 1 ? 70 : dim == 2 ? 18 : 6, 0.2, 2.1);
+        const struct solver_closure_factor *factor = &of.closure.factor;
+        size_t end = 0, wrong = 0;
+        CU_ASSERT(of.made && factor->node_count > 3 && factor->operations > 0.0);
+        for (size_t a = 0; a < of.cloud->count; a++) {
+            wrong += factor->particle[factor->place[a]] != a;
+        }
+        for (size_t n = 0; n < factor->node_count; n++) {
+            const struct solver_closure_node *node = &factor->node[n];
+            const uint32_t *border = factor->border + node->border;
+            wrong += node->begin != end;
+            end = node->end;
+            for (size_t i = 0; i < node->border_count; i++) {
+                wrong += border[i] < node->end || (i > 0 && border[i] <= border[i - 1]);
+            }
+            for (size_t place = node->begin; place < node->end; place++) {
+                size_t a = factor->particle[place];
+                for (size_t ab = of.graph.row[a]; ab < of.graph.row[a + 1]; ab++) {
+                    uint32_t later = factor->place[of.graph.neighbour[ab]];
+                    size_t found = later < node->end;
+                    for (size_t i = 0; i < node->border_count; i++) {
+                        found += border[i] == later;
+                    }
+                    wrong += found != 1;
+                }
+            }
+        }
+        CU_ASSERT_EQUAL(end, of.cloud->count);
+        CU_ASSERT_EQUAL(wrong, 0);
+        close_system(&of);
+    }
+}
+
+/* One solution leaves next to nothing, and a second nothing but round-off: on moved particles, on lattices where alpha
+ * along axes have no energy, and where nodes have more rows than are eliminated at a time. */
+static void solutions(void)
+{
+    static const struct {
+        int dim, edge;
+        double perturb, support;
+    } cases[] = {{1, 3, 0.0, 2.1},  {1, 120, 0.2, 3.0}, {2, 3, 0.2, 2.0},  {2, 50, 0.0, 2.0},
+                 {2, 50, 0.2, 2.6}, {3, 2, 0.1, 2.0},   {3, 7, 0.15, 2.0}, {3, 8, 0.0, 2.0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct system of;
+        open_system(&of, cases[i].dim, cases[i].edge, cases[i].perturb, cases[i].support);
+        fill(&of);
+        double first = solver_closure_largest(&of.closure, of.closure.residual);
+        double once = repeat(&of), twice = repeat(&of);
+        (void)printf("\n    %dD, %5zu particles, perturb %.2f, support %.1f: %.1e, then %.1e is left", cases[i].dim,
+                     of.cloud->count, cases[i].perturb, cases[i].support, once / first, twice / first);
+        CU_ASSERT(of.made && once <= 1e-13 * first && twice <= 1e-15 * first);
+        close_system(&of);
+    }
+}
+
+/* Solves on a path with some threads; the caller frees. */
+static double *solved(int dim, int edge, int path, int threads, size_t *bytes)
+{
+    struct system of;
+    int before = solver_path();
+    solver_path_use(path);
+    omp_set_num_threads(threads);
+    open_system(&of, dim, edge, 0.2, 2.1);
+    fill(&of);
+    solver_closure_substitute(&of.closure, of.closure.residual, of.closure.z);
+    *bytes = of.cloud->count * of.width * sizeof(double);
+    double *z = malloc(*bytes);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(z);
+    CU_ASSERT(of.made);
+    memcpy(z, of.closure.z, *bytes);
+    close_system(&of);
+    solver_path_use(before);
+    return z;
+}
+
+static void same_bytes(void)
+{
+    int most = omp_get_max_threads();
+    for (int dim = 1; dim <= 3; dim++) {
+        int edge = dim == 1 ? 250 : dim == 2 ? 40 : 7;
+        size_t bytes, others;
+        for (int path = 0; path < SOLVER_PATHS && solver_path_runs(path); path++) {
+            double *one = solved(dim, edge, path, 1, &bytes), *three = solved(dim, edge, path, 3, &others);
+            CU_ASSERT(bytes == others && memcmp(one, three, bytes) == 0);
+            free(three);
+            if (path == 2) {
+                double *narrower = solved(dim, edge, 1, 1, &others);
+                CU_ASSERT(bytes == others && memcmp(one, narrower, bytes) == 0);
+                free(narrower);
+            }
+            free(one);
+        }
+    }
+    omp_set_num_threads(most);
+}
+
+/* Long clouds have multipliers of less energy than round-off, and large ones in 3D take too many operations. */
+static void not_made(void)
+{
+    struct system of;
+    open_system(&of, 1, 400, 0.2, 3.0);
+    CU_ASSERT(!of.made && of.closure.factor.U == NULL);
+    close_system(&of);
+    open_system(&of, 3, 17, 0.2, 2.0);
+    CU_ASSERT(!of.made && of.closure.factor.U == NULL);
+    close_system(&of);
+}
+
+int main(void)
+{
+    static const struct unit_test tests[] = {
+        {"tree", tree},
+        {"solutions", solutions},
+        {"same bytes for 1 and 3 threads and on both wide paths", same_bytes},
+        {"none where it costs too much", not_made},
+    };
+    return unit_main("solver closure factor", tests, sizeof tests / sizeof *tests);
+}
