@@ -103,7 +103,7 @@ static size_t find_all(const struct solver_stencil *stencil, struct solver_rank 
             of = next;
             end++;
         }
-        if (end - a < SOLVER_RANK_KINDS) {
+        if (end - a < SOLVER_RANK_KINDS || end - a > SOLVER_RANK_MOST) {
             continue;
         }
         if (rank != NULL) {

@@ -12,7 +12,7 @@
 
 #if DIM == 2
 /* Fewer particles than LEAST go with the others: on all paths the same, as bits differ by round-off. */
-enum { LEAST = 9, MOST = 64, PAD = 8, SPAN = MOST + 2 * PAD };
+enum { LEAST = 9, PAD = 8, SPAN = SOLVER_RANK_MOST + 2 * PAD };
 
 /* --- planes --- */
 
@@ -369,21 +369,6 @@ static void rates_of(const struct part *part, struct hand *hand)
     hand->zero = part->begin - part->at + above;
 }
 
-/* Particles [begin, end) of a rank, in parts. */
-static void rates_of_rank(const struct solver_rank *rank, size_t begin, size_t end, struct hand *hand)
-{
-    bool whole = rank->end - rank->begin <= MOST;
-    size_t parts = (end - begin + MOST - 1) / MOST;
-    for (size_t k = 0; k < parts; k++) {
-        struct part part = {
-            .rank = rank, .begin = begin + (end - begin) * k / parts, .end = begin + (end - begin) * (k + 1) / parts};
-        part.left = part.begin > rank->begin;
-        part.right = part.end < rank->end;
-        part.at = PAD + (whole ? part.begin - rank->begin : 0);
-        rates_of(&part, hand);
-    }
-}
-
 /* The first rank that ends after particle a. */
 static size_t first_rank(const struct solver_upwind *work, size_t a)
 {
@@ -433,7 +418,13 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end, so
         if (done < first) {
             others(work, done, first);
         }
-        rates_of_rank(rank, first, last, &hand);
+        struct part part = {.rank = rank,
+                            .begin = first,
+                            .end = last,
+                            .left = first > rank->begin,
+                            .right = last < rank->end,
+                            .at = PAD + (first - rank->begin)};
+        rates_of(&part, &hand);
         done = last;
     }
     if (done < end) {

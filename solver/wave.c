@@ -1,9 +1,24 @@
 #include "solver/wave.h"
 
 #include "solver/memory.h"
-#include "solver/pieces.h"
 
 #include <stdlib.h>
+
+static size_t pieces_of(const struct solver_wave *wave)
+{
+    return wave->count > 0 ? (wave->count - 1) / wave->piece + 1 : 0;
+}
+
+/* Particles [begin, end) of a piece. */
+struct range {
+    size_t begin, end;
+};
+
+static struct range range_of(const struct solver_wave *wave, size_t piece)
+{
+    size_t begin = piece * wave->piece;
+    return (struct range){begin, begin + wave->piece < wave->count ? begin + wave->piece : wave->count};
+}
 
 /* What is needed to find the order. */
 struct plan {
@@ -28,12 +43,13 @@ static void free_plan(struct plan *plan)
 
 /* Other pieces with neighbours of the piece's particles, each once: how many, and into `beside` unless it is NULL.
  * mark[q] is the last piece, plus one, that has found q. */
-static size_t find_beside(struct solver_wave_graph graph, size_t piece, size_t count, size_t *mark, uint32_t *beside)
+static size_t find_beside(const struct solver_wave *wave, struct solver_wave_graph graph, size_t piece, size_t *mark,
+                          uint32_t *beside)
 {
-    size_t end = (piece + 1) * SOLVER_PIECE < count ? (piece + 1) * SOLVER_PIECE : count;
+    struct range range = range_of(wave, piece);
     size_t found = 0;
-    for (size_t ab = graph.row[piece * SOLVER_PIECE]; ab < graph.row[end]; ab++) {
-        size_t other = graph.neighbour[ab] / SOLVER_PIECE;
+    for (size_t ab = graph.row[range.begin]; ab < graph.row[range.end]; ab++) {
+        size_t other = graph.neighbour[ab] / wave->piece;
         if (other == piece || mark[other] == piece + 1) {
             continue;
         }
@@ -46,18 +62,18 @@ static size_t find_beside(struct solver_wave_graph graph, size_t piece, size_t c
     return found;
 }
 
-static bool list_beside(struct plan *plan, struct solver_wave_graph graph, size_t count, struct solver_error *error)
+static bool list_beside(struct plan *plan, struct solver_wave_graph graph, struct solver_error *error)
 {
     size_t *mark = NULL;
     size_t pieces = plan->pieces;
     bool ok = solver_alloc((void **)&plan->row, pieces + 1, sizeof *plan->row, "order of sweeps", error) &&
               solver_alloc((void **)&mark, 2 * pieces, sizeof *mark, "order of sweeps", error);
     for (size_t piece = 0; ok && piece < pieces && graph.row != NULL; piece++) {
-        plan->row[piece + 1] = plan->row[piece] + find_beside(graph, piece, count, mark, NULL);
+        plan->row[piece + 1] = plan->row[piece] + find_beside(plan->wave, graph, piece, mark, NULL);
     }
     ok = ok && solver_alloc((void **)&plan->beside, plan->row[pieces], sizeof *plan->beside, "order of sweeps", error);
     for (size_t piece = 0; ok && piece < pieces && graph.row != NULL; piece++) {
-        (void)find_beside(graph, piece, count, mark + pieces, plan->beside + plan->row[piece]);
+        (void)find_beside(plan->wave, graph, piece, mark + pieces, plan->beside + plan->row[piece]);
     }
     free(mark);
     return ok;
@@ -161,19 +177,19 @@ static void order_chunk(struct plan *plan, size_t *first, bool together)
     }
 }
 
-bool solver_wave_create(struct solver_wave *wave, size_t count, struct solver_wave_graph graph, int sweeps, int threads,
-                        struct solver_error *error)
+bool solver_wave_create(struct solver_wave *wave, size_t count, size_t piece, struct solver_wave_graph graph,
+                        int sweeps, int threads, struct solver_error *error)
 {
-    struct plan plan = {.pieces = solver_pieces(count), .wave = wave};
     size_t of_sweeps = (size_t)sweeps;
-    *wave = (struct solver_wave){.sweeps = sweeps, .chunks = threads, .count = count};
+    *wave = (struct solver_wave){.sweeps = sweeps, .chunks = threads, .count = count, .piece = piece};
+    struct plan plan = {.pieces = pieces_of(wave), .wave = wave};
     bool ok =
         solver_alloc((void **)&wave->task, plan.pieces * of_sweeps, sizeof *wave->task, "order of sweeps", error) &&
         solver_alloc((void **)&wave->first, (size_t)threads * of_sweeps + 1, sizeof *wave->first, "order of sweeps",
                      error) &&
         solver_alloc((void **)&plan.list, plan.pieces * of_sweeps, sizeof *plan.list, "order of sweeps", error) &&
         solver_alloc((void **)&plan.done, plan.pieces, sizeof *plan.done, "order of sweeps", error) &&
-        list_beside(&plan, graph, count, error);
+        list_beside(&plan, graph, error);
     bool together = ok && symmetric(&plan);
     for (size_t chunk = 0; ok && chunk < (size_t)threads; chunk++) {
         plan.begin = plan.pieces * chunk / (size_t)threads;
@@ -197,8 +213,7 @@ void solver_wave_free(struct solver_wave *wave)
 void solver_wave_arrays(const struct solver_wave *wave, struct solver_cost_arrays *arrays)
 {
     size_t sweeps = (size_t)wave->sweeps;
-    solver_cost_array(arrays, "run", "order of sweeps", wave->task, solver_pieces(wave->count) * sweeps,
-                      sizeof *wave->task);
+    solver_cost_array(arrays, "run", "order of sweeps", wave->task, pieces_of(wave) * sweeps, sizeof *wave->task);
     solver_cost_array(arrays, "run", "rounds of sweeps", wave->first, (size_t)wave->chunks * sweeps + 1,
                       sizeof *wave->first);
 }
@@ -206,7 +221,7 @@ void solver_wave_arrays(const struct solver_wave *wave, struct solver_cost_array
 void solver_wave_run(const struct solver_wave *wave, solver_wave_sweep *sweep, void *context)
 {
     uint32_t sweeps = (uint32_t)wave->sweeps;
-    size_t tasks = solver_pieces(wave->count) * sweeps;
+    size_t tasks = pieces_of(wave) * sweeps;
     int rounds = wave->in_round < tasks ? wave->sweeps : 1;
 #pragma omp parallel
     for (int round = 0; round < rounds; round++) {
@@ -214,9 +229,8 @@ void solver_wave_run(const struct solver_wave *wave, solver_wave_sweep *sweep, v
         for (size_t chunk = 0; chunk < (size_t)wave->chunks; chunk++) {
             const size_t *first = wave->first + chunk * sweeps + (size_t)round;
             for (size_t i = first[0]; i < first[1]; i++) {
-                size_t begin = (size_t)(wave->task[i] / sweeps) * SOLVER_PIECE;
-                sweep(context, (int)(wave->task[i] % sweeps), begin,
-                      begin + SOLVER_PIECE < wave->count ? begin + SOLVER_PIECE : wave->count);
+                struct range range = range_of(wave, wave->task[i] / sweeps);
+                sweep(context, (int)(wave->task[i] % sweeps), range.begin, range.end);
             }
         }
     }

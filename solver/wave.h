@@ -21,6 +21,7 @@
 struct solver_wave {
     int sweeps, chunks;
     size_t count;    /* particles */
+    size_t piece;    /* particles of a piece; of the last what is left */
     uint32_t *task;  /* [pieces * sweeps] piece * sweeps + sweep, in the order in which they go */
     size_t *first;   /* [chunks * sweeps + 1] of `task`, where each round of each chunk begins */
     size_t in_round; /* tasks of the first round, of all chunks */
@@ -37,8 +38,8 @@ typedef void solver_wave_sweep(void *context, int sweep, size_t begin, size_t en
 
 /* For that many threads. Where a neighbour does not list the particle that lists it, as images may not, sweeps go one
  * after another. */
-bool solver_wave_create(struct solver_wave *wave, size_t count, struct solver_wave_graph graph, int sweeps, int threads,
-                        struct solver_error *error);
+bool solver_wave_create(struct solver_wave *wave, size_t count, size_t piece, struct solver_wave_graph graph,
+                        int sweeps, int threads, struct solver_error *error);
 void solver_wave_free(struct solver_wave *wave);
 void solver_wave_arrays(const struct solver_wave *wave, struct solver_cost_arrays *arrays);
 void solver_wave_run(const struct solver_wave *wave, solver_wave_sweep *sweep, void *context);

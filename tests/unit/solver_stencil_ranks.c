@@ -77,10 +77,14 @@ static size_t wrong_pairs(const struct solver_stencil *stencil, const struct sol
     return wrong;
 }
 
-/* Every row of a lattice of sbp2 is one rank. */
+/* Every row of a lattice of sbp2 is one rank, unless it is too long. */
 static void test_lattice(void)
 {
-    static const int edges[] = {4, 20, 21};
+    static const int edges[] = {4, 20, 21, SOLVER_RANK_MOST - 1};
+    struct made longer = make("sbp2", SOLVER_RANK_MOST);
+    find(&longer);
+    CU_ASSERT_EQUAL(longer.stencil->rank_count, 0);
+    let_go(&longer);
     for (size_t i = 0; i < sizeof edges / sizeof *edges; i++) {
         struct made made = make("sbp2", edges[i]);
         const struct solver_stencil *stencil = made.stencil;
@@ -143,14 +147,14 @@ static void test_others(void)
     }
 }
 
-/* All that the loops distinguish, by overrides of a scene; rows shorter than a piece of work, longer than a part of
- * one, and no multiple of a register's width. */
+/* All that the loops distinguish, by overrides of a scene; rows that pieces of work cut anywhere, the longest there
+ * are, and no multiple of a register's width. */
 static const char *const loops[] = {
     "n=12 evolved=pF",
     "n=13 evolved=pFJ",
     "n=30 evolved=pFHJ",
     "n=17 evolved=pFHJ integrator=rk4",
-    "n=70 evolved=pFJ",
+    "n=127 evolved=pFJ",
     "n=15 evolved=pFHJ material.model=hencky",
     "n=16 evolved=pFJ material.model=neo-hookean-polyconvex",
     "n=12 evolved=pF material.model=linear-elastic",

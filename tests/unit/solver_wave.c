@@ -1,12 +1,13 @@
 /* Waves of sweeps: every sweep of every piece goes once, after its neighbours are through the one before, and before
  * any of them has written over what it reads. */
-#include "solver/pieces.h"
 #include "solver/wave.h"
 #include "tests/unit/unit.h"
 
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { PIECE = 200 };
 
 /* Particles of a lattice in rows, or in disorder, and what sweeps have done to them. */
 struct lattice {
@@ -17,6 +18,11 @@ struct lattice {
     size_t early, late, again; /* visits found wrong */
     int most;                  /* sweeps by which a particle was ahead of the last, at most */
 };
+
+static size_t pieces_of(const struct lattice *lattice)
+{
+    return (lattice->count + PIECE - 1) / PIECE;
+}
 
 static size_t site(size_t x, size_t y, size_t along, bool disorder)
 {
@@ -89,7 +95,7 @@ static struct solver_wave expect(struct lattice *lattice, int sweeps, int thread
     struct solver_wave wave;
     struct solver_error error;
     struct solver_wave_graph graph = {lattice->row, lattice->neighbour};
-    CU_ASSERT_FATAL(solver_wave_create(&wave, lattice->count, graph, sweeps, threads, &error));
+    CU_ASSERT_FATAL(solver_wave_create(&wave, lattice->count, PIECE, graph, sweeps, threads, &error));
     omp_set_num_threads(threads);
     for (int time = 0; time < 2; time++) {
         memset(lattice->through, 0, lattice->count * sizeof *lattice->through);
@@ -129,7 +135,7 @@ static void test_front(void)
     struct lattice lattice = make(200, false);
     struct solver_wave wave = expect(&lattice, 6, 1);
     CU_ASSERT_EQUAL(lattice.most, 6);
-    CU_ASSERT_EQUAL(wave.in_round, solver_pieces(lattice.count) * 6);
+    CU_ASSERT_EQUAL(wave.in_round, pieces_of(&lattice) * 6);
     solver_wave_free(&wave);
     release(&lattice);
 }
@@ -138,11 +144,11 @@ static void test_front(void)
 static void test_one_sided(void)
 {
     struct lattice lattice = make(40, false);
-    for (size_t a = 0; a <= SOLVER_PIECE; a++) { /* a piece lists nobody */
+    for (size_t a = 0; a <= PIECE; a++) { /* a piece lists nobody */
         lattice.row[a] = 0;
     }
     struct solver_wave wave = expect(&lattice, 3, 2);
-    CU_ASSERT_EQUAL(wave.in_round, solver_pieces(lattice.count));
+    CU_ASSERT_EQUAL(wave.in_round, pieces_of(&lattice));
     solver_wave_free(&wave);
     release(&lattice);
 }
