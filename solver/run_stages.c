@@ -3,6 +3,7 @@
 #include "solver/path.h"
 #include "solver/pieces.h"
 #include "solver/run_internal.h"
+#include "solver/stencil_ranks.h"
 #include "solver/symmetry.h"
 
 #include <math.h>
@@ -67,11 +68,13 @@ bool solver_run_parts_stages(const struct solver_run *run)
                             run->integrator->stages);
 }
 
-/* Particles of a piece of a wave. In the plane loops keep from one row what the next needs as well (stencil_ranks.h):
- * with 256, {p,F,J} takes up to 1.2 times as long there. In space {p,F,H,J} takes 1.03 times as long with 512. */
-static size_t piece_of(int dim)
+/* Particles of a piece of a wave. Where loops keep from one row what the next needs as well (stencil_ranks.h) they are
+ * whole rows: with pieces of 256, {p,F,J} takes 1.2 times as long. Elsewhere more than 256 do, as waves then hold more.
+ */
+static size_t piece_of(const struct solver_run *run)
 {
-    return dim < 3 ? 512 : 256;
+    size_t row = farthest(run);
+    return run->cloud->dim == 2 && row > 0 && row <= SOLVER_RANK_MOST ? 512 / row * row : 256;
 }
 
 bool solver_run_make_waves(struct solver_run *run, bool by_stages, struct solver_error *error)
@@ -84,7 +87,7 @@ bool solver_run_make_waves(struct solver_run *run, bool by_stages, struct solver
     run->acts_on_rates = acts_on_rates(run);
     run->acts_on_state = acts_on_state(run);
     run->by_stages = by_stages;
-    size_t piece = piece_of(run->cloud->dim);
+    size_t piece = piece_of(run);
     int sweeps;
     for (int at = 0; at < SOLVER_STAGE_SWEEPS * run->integrator->stages; at += sweeps) {
         sweeps = solver_run_wave(run, at);

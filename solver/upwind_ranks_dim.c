@@ -95,15 +95,18 @@ static void to_planes(const struct solver_upwind *work, size_t a, size_t count, 
     real *at = to->of[0] + i;
     vectors_to(work->v + a * LANES, count, at + OF_V * SPAN, SPAN);
     vectors_to(work->x + a * LANES, count, at + OF_x * SPAN, SPAN);
+    real *of_axes = at + OF_AXES * SPAN;
+    tensors_to(work->P + a * TENSOR, count, of_axes + OF_P * SPAN);
+    tensors_to(work->F_rate + a * TENSOR, count, of_axes + OF_SLOPE * SPAN);
+    vectors_to(work->X + a * LANES, count, of_axes + OF_X * SPAN, AXIS_PLANES * SPAN);
+    if (!work->evolves_J) {
+        return;
+    }
     scalars_to(work->pressure + a, count, at + OF_PRESSURE * SPAN);
     if (work->stiffness != NULL) {
         scalars_to(work->stiffness + a, count, at + OF_STIFFNESS * SPAN);
     }
-    real *of_axes = at + OF_AXES * SPAN;
-    tensors_to(work->P + a * TENSOR, count, of_axes + OF_P * SPAN);
-    tensors_to(work->F_rate + a * TENSOR, count, of_axes + OF_SLOPE * SPAN);
     tensors_to(work->cofactor + a * TENSOR, count, of_axes + OF_COFACTOR * SPAN);
-    vectors_to(work->X + a * LANES, count, of_axes + OF_X * SPAN, AXIS_PLANES * SPAN);
     vectors_to(work->pressure_gradient + a * LANES, count, of_axes + OF_PRESSURE_SLOPE * SPAN, AXIS_PLANES * SPAN);
 }
 
@@ -140,7 +143,7 @@ static inline wide sum(const real *a, const real *b, int which)
 }
 
 /* As many as a register takes: what add_along of dim_aligned.h does. */
-static inline __attribute__((always_inline)) void add_flux(const struct ends *at, bool stiffens,
+static inline __attribute__((always_inline)) void add_flux(const struct ends *at, bool volume, bool stiffens,
                                                            const struct impedances *z, real *to)
 {
     wide back = (real)-0.5 * difference(at->a_I, at->b_I, OF_X);
@@ -151,20 +154,26 @@ static inline __attribute__((always_inline)) void add_flux(const struct ends *at
         along[i] = difference(at->a, at->b, OF_x + i);
     }
     wide square = along[0] * along[0] + along[1] * along[1];
-    wide area = along[0] * sum(at->a_I, at->b_I, OF_COFACTOR) + along[1] * sum(at->a_I, at->b_I, OF_COFACTOR + 1);
-    struct turned turned = turned_of(square, (real)0.5 * area, join_each(z->shear), join_each(z->bulk),
-                                     stiffens ? load_wide(at->a + OF_STIFFNESS * SPAN) : square,
-                                     stiffens ? load_wide(at->b + OF_STIFFNESS * SPAN) : square, stiffens);
-    wide normal = (along[0] * jump[0] + along[1] * jump[1]) * ((z->p - z->s) * turned.inverse);
+    struct turned turned = {.soft = square};
+    if (volume) {
+        wide area = along[0] * sum(at->a_I, at->b_I, OF_COFACTOR) + along[1] * sum(at->a_I, at->b_I, OF_COFACTOR + 1);
+        turned = turned_of(square, (real)0.5 * area, join_each(z->shear), join_each(z->bulk),
+                           stiffens ? load_wide(at->a + OF_STIFFNESS * SPAN) : square,
+                           stiffens ? load_wide(at->b + OF_STIFFNESS * SPAN) : square, stiffens);
+    }
+    wide more = z->p - z->s;
+    wide normal = (along[0] * jump[0] + along[1] * jump[1]) * (volume ? more * turned.inverse : more / square);
     for (int i = 0; i < 2; i++) {
         store_wide(to + i * SPAN, sum(at->a_I, at->b_I, OF_P + i) + (z->s * jump[i] + normal * along[i]));
     }
-    wide of_J = difference(at->a, at->b, OF_PRESSURE) + back * sum(at->a_I, at->b_I, OF_PRESSURE_SLOPE);
-    store_wide(to + OF_J * SPAN, turned.soft * of_J);
+    if (volume) {
+        wide of_J = difference(at->a, at->b, OF_PRESSURE) + back * sum(at->a_I, at->b_I, OF_PRESSURE_SLOPE);
+        store_wide(to + OF_J * SPAN, turned.soft * of_J);
+    }
 }
 
 static inline __attribute__((always_inline)) void add_fluxes_as(const struct side_by_side *pairs,
-                                                                const struct impedances *of, bool stiffens)
+                                                                const struct impedances *of, bool volume, bool stiffens)
 {
     struct impedances z = *of;
     int of_axis = OF_AXES + pairs->I * AXIS_PLANES;
@@ -175,18 +184,24 @@ static inline __attribute__((always_inline)) void add_fluxes_as(const struct sid
     real *to = pairs->to->of[0] + pairs->a;
     for (size_t k = 0; k < pairs->count; k = next_block(k, pairs->count)) {
         struct ends at = {from.a + k, from.b + k, from.a_I + k, from.b_I + k};
-        add_flux(&at, stiffens, &z, to + k);
+        add_flux(&at, volume, stiffens, &z, to + k);
     }
 }
 
 static __attribute__((noinline)) void add_fluxes(const struct side_by_side *pairs, const struct impedances *z)
 {
-    add_fluxes_as(pairs, z, false);
+    add_fluxes_as(pairs, z, true, false);
 }
 
 static __attribute__((noinline)) void add_stiff_fluxes(const struct side_by_side *pairs, const struct impedances *z)
 {
-    add_fluxes_as(pairs, z, true);
+    add_fluxes_as(pairs, z, true, true);
+}
+
+static __attribute__((noinline)) void add_fluxes_of_momentum(const struct side_by_side *pairs,
+                                                             const struct impedances *z)
+{
+    add_fluxes_as(pairs, z, false, false);
 }
 
 /* --- rates --- */
@@ -333,8 +348,10 @@ static void put_rates(const struct part *part, const struct hand *hand)
         wide of[2] = {per_rho * net(hand, 0, i), per_rho * net(hand, 1, i)};
         store_wide(to, __builtin_shufflevector(of[0], of[1], EACH_LANE(LOW_OF_BOTH)));
         store_wide(to + WIDTH, __builtin_shufflevector(of[0], of[1], EACH_LANE(HIGH_OF_BOTH)));
-        wide of_J = compression_at(&hand->planes[hand->own], i) + per_z * net(hand, OF_J, i);
-        store_wide(work->J_rate + part->begin + k, of_J);
+        if (work->evolves_J) {
+            wide of_J = compression_at(&hand->planes[hand->own], i) + per_z * net(hand, OF_J, i);
+            store_wide(work->J_rate + part->begin + k, of_J);
+        }
     }
 }
 
@@ -385,11 +402,10 @@ static size_t first_rank(const struct solver_upwind *work, size_t a)
     return low;
 }
 
-/* Whether it is worth it: without J pairs cost less than planes. Registers of the baseline are narrow, and tests count
- * its operations. */
+/* Registers of the baseline are narrow, and tests count its operations. */
 static bool takes_pairs(const struct solver_upwind *work)
 {
-    return REGISTER_BYTES > 16 && work->rank != NULL && work->evolves_J && !work->frozen && work->reconstruct;
+    return REGISTER_BYTES > 16 && work->rank != NULL && !work->frozen && work->reconstruct;
 }
 
 static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
@@ -398,12 +414,14 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end, so
     size_t done = begin;
     struct hand hand;
     hand.work = work;
-    hand.add_fluxes = work->stiffness != NULL ? add_stiff_fluxes : add_fluxes;
+    hand.add_fluxes = !work->evolves_J          ? add_fluxes_of_momentum
+                      : work->stiffness != NULL ? add_stiff_fluxes
+                                                : add_fluxes;
     hand.own = 0;
     hand.begin = hand.end = hand.zero = 0;
     size_t count = takes_pairs(work) ? work->rank_count : 0;
     if (count > 0) {
-        hand.z = impedances(work, constants, true);
+        hand.z = impedances(work, constants, work->evolves_J);
     }
     if (count > 0 && work->lost != NULL) { /* the others note that; rates do not depend on who asks */
         others(work, begin, end);

@@ -151,6 +151,8 @@ static void test_others(void)
  * are, and no multiple of a register's width. */
 static const char *const loops[] = {
     "n=12 evolved=pF",
+    "n=35 evolved=pF material.model=hencky",
+    "n=18 evolved=pF precision=mixed",
     "n=13 evolved=pFJ",
     "n=30 evolved=pFHJ",
     "n=17 evolved=pFHJ integrator=rk4",
@@ -239,11 +241,14 @@ static void test_wrong(void)
         widest--;
     }
     for (enum finding which = ALONG_WRONG; widest > 0 && which <= END_WRONG; which++) {
-        struct sample right = run_with(NONE, widest, "n=20 evolved=pFHJ");
-        struct sample wrong = run_with(which, widest, "n=20 evolved=pFHJ");
-        CU_ASSERT(far_apart(&wrong, &right) > 1e-9);
-        finish(&right);
-        finish(&wrong);
+        for (int set = 0; set < 2; set++) {
+            const char *settings = set == 0 ? "n=20 evolved=pF" : "n=20 evolved=pFHJ";
+            struct sample right = run_with(NONE, widest, settings);
+            struct sample wrong = run_with(which, widest, settings);
+            CU_ASSERT(far_apart(&wrong, &right) > 1e-9);
+            finish(&right);
+            finish(&wrong);
+        }
     }
     solver_path_use(before);
 }
