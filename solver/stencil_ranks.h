@@ -11,8 +11,8 @@ enum { SOLVER_RANK_FIRST, SOLVER_RANK_INSIDE, SOLVER_RANK_LAST, SOLVER_RANK_KIND
 /* Of longer rows a piece of work has too few for what is kept from one row for the next. */
 enum { SOLVER_RANK_MOST = 128 };
 
-/* Particles [begin, end), three or more, SOLVER_RANK_MOST at most. Those of a pair have one weight, |C_ab|, which is its face measure as well,
- * and C_ab points as b lies. */
+/* Particles [begin, end), three or more, SOLVER_RANK_MOST at most. Those of a pair have one weight, |C_ab|, which is
+ * its face measure as well, and C_ab points as b lies. */
 struct solver_rank {
     size_t begin, end;
     size_t below, above;                 /* a - below and a + above are neighbours of a across; 0: none */
