@@ -180,13 +180,25 @@ static void least_squares_gradients(const struct solver_upwind *work, size_t beg
     }
 }
 
+extern const struct solver_rank_loops DIM_NAME(solver_ranks);
+
+/* Of particles on lines that are in no rank: those abreast and others. */
+static void gradients_on_lines(const struct solver_upwind *work, size_t begin, size_t end)
+{
+    in_runs(work, begin, end, DIM_NAME(solver_abreast).gradients, aligned_gradients);
+}
+
 static void gradients(const struct solver_upwind *work, size_t begin, size_t end)
 {
     bool own = work->least_squares == NULL; /* the reconstruction takes the stencil's gradients */
     bool pressure = own && work->pressure_gradient != NULL;
     bool narrow = work->narrow != NULL;
     if (aligns_gradients(work)) {
-        in_runs(work, begin, end, DIM_NAME(solver_abreast).gradients, aligned_gradients);
+#ifdef SINGLE
+        gradients_on_lines(work, begin, end);
+#else
+        DIM_NAME(solver_ranks).gradients(work, begin, end, gradients_on_lines);
+#endif
     } else if (pressure && work->stride != 0) { /* rare: not worth a loop each */
         gradients_with(work, begin, end, true, narrow, true);
     } else if (narrow && pressure) {
@@ -333,9 +345,6 @@ static inline __attribute__((always_inline)) void rates_with(const struct solver
     }
 }
 
-extern const struct solver_rank_loops DIM_NAME(solver_ranks);
-
-/* Of particles on lines that are in no rank: those abreast and others. */
 static void rates_on_lines(const struct solver_upwind *work, size_t begin, size_t end)
 {
     in_runs(work, begin, end, DIM_NAME(solver_abreast).rates, aligned_rates);

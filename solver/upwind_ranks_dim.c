@@ -4,15 +4,14 @@
 #define ABREAST
 #include "solver/upwind_ranks.h"
 
+#include "solver/dim_rank_gradients.h"
 #include "solver/dim_terms.h"
 #include "solver/dim_turned.h"
-#include "solver/stencil_ranks.h"
 
 #include <string.h>
 
 #if DIM == 2
-/* Fewer particles than LEAST go with the others: on all paths the same, as bits differ by round-off. */
-enum { LEAST = 9, PAD = 8, SPAN = SOLVER_RANK_MOST + 2 * PAD };
+enum { SPAN = SOLVER_RANK_MOST + 2 * PAD };
 
 /* --- planes --- */
 
@@ -25,27 +24,8 @@ struct planes {
     real of[OF_AXES + 2 * AXIS_PLANES][SPAN] __attribute__((aligned(64)));
 };
 
-static inline wide load_wide(const real *from)
-{
-    return *(const wide_anywhere *)from;
-}
-
-static inline void store_wide(real *to, wide a)
-{
-    *(wide_anywhere *)to = a;
-}
-
-/* The next of `count` numbers that a register takes, after those from k on: the last ones may have some in common. */
-static inline size_t next_block(size_t k, size_t count)
-{
-    size_t next = k + WIDTH;
-    return next >= count ? count : next + WIDTH <= count ? next : count - WIDTH;
-}
-
 #define FIRST_OF_TWO(i)  (2 * (i))
 #define SECOND_OF_TWO(i) (2 * (i) + 1)
-#define LOW_OF_BOTH(i)   ((i) / 2 + (i) % 2 * WIDTH)
-#define HIGH_OF_BOTH(i)  (WIDTH / 2 + LOW_OF_BOTH(i))
 
 /* Numbers that take turns, apart. */
 static inline void apart(wide low, wide high, wide *first, wide *second)
@@ -206,12 +186,6 @@ static __attribute__((noinline)) void add_fluxes_of_momentum(const struct side_b
 
 /* --- rates --- */
 
-/* Of a rank, particles [begin, end), which have neighbours beside them in it or not; place `at` is the first one's. */
-struct part {
-    const struct solver_rank *rank;
-    size_t begin, end, left, right, at;
-};
-
 /* What is at hand of two rows. Planes of particles [begin, end), and the fluxes across from below, are those of the
  * row above the last, whose place 0 is that of particle `zero`. */
 struct hand {
@@ -346,8 +320,7 @@ static void put_rates(const struct part *part, const struct hand *hand)
         size_t i = part->at + k;
         real *to = work->v_rate + (part->begin + k) * LANES;
         wide of[2] = {per_rho * net(hand, 0, i), per_rho * net(hand, 1, i)};
-        store_wide(to, __builtin_shufflevector(of[0], of[1], EACH_LANE(LOW_OF_BOTH)));
-        store_wide(to + WIDTH, __builtin_shufflevector(of[0], of[1], EACH_LANE(HIGH_OF_BOTH)));
+        store_in_turn(to, of[0], of[1]);
         if (work->evolves_J) {
             wide of_J = compression_at(&hand->planes[hand->own], i) + per_z * net(hand, OF_J, i);
             store_wide(work->J_rate + part->begin + k, of_J);
@@ -386,32 +359,19 @@ static void rates_of(const struct part *part, struct hand *hand)
     hand->zero = part->begin - part->at + above;
 }
 
-/* The first rank that ends after particle a. */
-static size_t first_rank(const struct solver_upwind *work, size_t a)
+static void rates_of_part(const struct solver_upwind *work, const struct part *part, void *hand)
 {
-    size_t low = 0;
-    size_t high = work->rank_count;
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        if (work->rank[middle].end > a) {
-            high = middle;
-        } else {
-            low = middle + 1;
-        }
-    }
-    return low;
-}
-
-/* Registers of the baseline are narrow, and tests count its operations. */
-static bool takes_pairs(const struct solver_upwind *work)
-{
-    return REGISTER_BYTES > 16 && work->rank != NULL && !work->frozen && work->reconstruct;
+    (void)work;
+    rates_of(part, hand);
 }
 
 static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
 {
     static const size_t constants[PLACES]; /* all are of one material */
-    size_t done = begin;
+    if (!has_ranks(work)) {
+        others(work, begin, end);
+        return;
+    }
     struct hand hand;
     hand.work = work;
     hand.add_fluxes = !work->evolves_J          ? add_fluxes_of_momentum
@@ -419,41 +379,22 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end, so
                                                 : add_fluxes;
     hand.own = 0;
     hand.begin = hand.end = hand.zero = 0;
-    size_t count = takes_pairs(work) ? work->rank_count : 0;
-    if (count > 0) {
-        hand.z = impedances(work, constants, work->evolves_J);
-    }
-    if (count > 0 && work->lost != NULL) { /* the others note that; rates do not depend on who asks */
+    hand.z = impedances(work, constants, work->evolves_J);
+    if (work->lost != NULL) { /* the others note that; rates do not depend on who asks */
         others(work, begin, end);
     }
-    for (size_t r = count > 0 ? first_rank(work, begin) : 0; r < count && work->rank[r].begin < end; r++) {
-        const struct solver_rank *rank = work->rank + r;
-        size_t first = rank->begin > begin ? rank->begin : begin;
-        size_t last = rank->end < end ? rank->end : end;
-        if (last - first < LEAST) {
-            continue;
-        }
-        if (done < first) {
-            others(work, done, first);
-        }
-        struct part part = {.rank = rank,
-                            .begin = first,
-                            .end = last,
-                            .left = first > rank->begin,
-                            .right = last < rank->end,
-                            .at = PAD + (first - rank->begin)};
-        rates_of(&part, &hand);
-        done = last;
-    }
-    if (done < end) {
-        others(work, done, end);
-    }
+    for_ranks(work, begin, end, rates_of_part, &hand, others);
 }
 #else
+static void gradients(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
+{
+    others(work, begin, end);
+}
+
 static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
 {
     others(work, begin, end);
 }
 #endif
 
-const struct solver_rank_loops DIM_NAME(solver_ranks) = {.rates = rates};
+const struct solver_rank_loops DIM_NAME(solver_ranks) = {.gradients = gradients, .rates = rates};
