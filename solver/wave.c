@@ -1,6 +1,7 @@
 #include "solver/wave.h"
 
 #include "solver/memory.h"
+#include "solver/pieces.h"
 
 #include <stdlib.h>
 
@@ -9,15 +10,10 @@ static size_t pieces_of(const struct solver_wave *wave)
     return wave->count > 0 ? (wave->count - 1) / wave->piece + 1 : 0;
 }
 
-/* Particles [begin, end) of a piece. */
-struct range {
-    size_t begin, end;
-};
-
-static struct range range_of(const struct solver_wave *wave, size_t piece)
+static struct solver_piece piece_at(const struct solver_wave *wave, size_t piece)
 {
     size_t begin = piece * wave->piece;
-    return (struct range){begin, begin + wave->piece < wave->count ? begin + wave->piece : wave->count};
+    return (struct solver_piece){begin, begin + wave->piece < wave->count ? begin + wave->piece : wave->count};
 }
 
 /* What is needed to find the order. */
@@ -46,9 +42,9 @@ static void free_plan(struct plan *plan)
 static size_t find_beside(const struct solver_wave *wave, struct solver_wave_graph graph, size_t piece, size_t *mark,
                           uint32_t *beside)
 {
-    struct range range = range_of(wave, piece);
+    struct solver_piece at = piece_at(wave, piece);
     size_t found = 0;
-    for (size_t ab = graph.row[range.begin]; ab < graph.row[range.end]; ab++) {
+    for (size_t ab = graph.row[at.begin]; ab < graph.row[at.end]; ab++) {
         size_t other = graph.neighbour[ab] / wave->piece;
         if (other == piece || mark[other] == piece + 1) {
             continue;
@@ -229,8 +225,8 @@ void solver_wave_run(const struct solver_wave *wave, solver_wave_sweep *sweep, v
         for (size_t chunk = 0; chunk < (size_t)wave->chunks; chunk++) {
             const size_t *first = wave->first + chunk * sweeps + (size_t)round;
             for (size_t i = first[0]; i < first[1]; i++) {
-                struct range range = range_of(wave, wave->task[i] / sweeps);
-                sweep(context, (int)(wave->task[i] % sweeps), range.begin, range.end);
+                struct solver_piece at = piece_at(wave, wave->task[i] / sweeps);
+                sweep(context, (int)(wave->task[i] % sweeps), at.begin, at.end);
             }
         }
     }

@@ -36,8 +36,8 @@ struct solver_wave_graph {
 /* One sweep over particles [begin, end), in a thread. */
 typedef void solver_wave_sweep(void *context, int sweep, size_t begin, size_t end);
 
-/* For that many threads. Where a neighbour does not list the particle that lists it, as images may not, sweeps go one
- * after another. */
+/* In pieces of `piece` particles, for that many threads. Where a neighbour does not list the particle that lists it, as
+ * images may not, sweeps go one after another. */
 bool solver_wave_create(struct solver_wave *wave, size_t count, size_t piece, struct solver_wave_graph graph,
                         int sweeps, int threads, struct solver_error *error);
 void solver_wave_free(struct solver_wave *wave);
