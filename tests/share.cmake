@@ -10,10 +10,11 @@ foreach(program test_solver_stencil_align mutant_aligned-off-axis)
     target_link_options(${program} PRIVATE -Wl,--wrap=solver_stencil_align)
   endif()
 endforeach()
-# And of solver_stencil_find_runs, with particles abreast and without.
+# And of solver_stencil_find_runs, with particles abreast and without, and without ranks.
 foreach(program test_solver_stencil_runs mutant_abreast-by-row)
   if(TARGET ${program})
-    target_link_options(${program} PRIVATE -Wl,--wrap=solver_stencil_find_runs)
+    target_link_options(${program} PRIVATE -Wl,--wrap=solver_stencil_find_runs
+                        -Wl,--wrap=solver_stencil_find_ranks)
   endif()
 endforeach()
 # And of solver_stencil_find_ranks, with ranks and without.
