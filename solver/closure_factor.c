@@ -77,11 +77,13 @@ static bool add_child(struct solver_closure_factor *of, const struct solver_clos
     return true;
 }
 
-/* Rows [begin, end) of `out` in pieces, in parallel where called from no parallel loop. */
-static void subtract(const struct solver_front_loops *loops, const double *rows, size_t length, size_t from, size_t to,
-                     size_t start, double *out, size_t out_length, size_t begin, size_t end)
+/* Rows [begin, end) of `out`, of a node near the root in pieces and in parallel: subtrees of others are one thread's.
+ */
+static void subtract(const struct solver_front_loops *loops, const struct solver_closure_node *node, const double *rows,
+                     size_t length, size_t from, size_t to, size_t start, double *out, size_t out_length, size_t begin,
+                     size_t end)
 {
-    if (end - begin <= PIECE) { /* most have few */
+    if (node->depth >= DEEP || end - begin <= PIECE) {
         loops->subtract(rows, length, from, to, start, out, out_length, begin, end);
         return;
     }
@@ -115,9 +117,9 @@ static bool eliminate(struct solver_closure *of, size_t index, struct solver_err
     for (size_t from = 0; from < front.own; from += BLOCK) {
         size_t end = from + BLOCK < front.own ? from + BLOCK : front.own;
         loops->eliminate(rows, front.length, from, end);
-        subtract(loops, rows, front.length, from, end, 0, rows, front.length, end, front.own);
+        subtract(loops, node, rows, front.length, from, end, 0, rows, front.length, end, front.own);
     }
-    subtract(loops, rows, front.length, 0, front.own, front.start, factor->left[index], front.left_length, 0,
+    subtract(loops, node, rows, front.length, 0, front.own, front.start, factor->left[index], front.left_length, 0,
              front.border);
     return true;
 }
