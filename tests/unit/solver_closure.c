@@ -1,51 +1,18 @@
 /* The multipliers of a closed stencil: nested spaces that are what they claim, iterations that do not grow with the
  * cloud, equations without a solution, and the same bytes for any number of threads. */
-#include "solver/closure.h"
-#include "solver/kernel.h"
 #include "solver/memory.h"
-#include "tests/unit/clouds.h"
-#include "tests/unit/unit.h"
+#include "tests/unit/closures.h"
 
 #include <math.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
-struct system {
-    struct solver_cloud *cloud;
-    struct solver_graph graph;
-    struct solver_closure closure;
-    size_t width; /* numbers of a vector per particle */
-};
-
-static void open_system(struct system *of, int dim, int edge, double perturb, double support)
+static void open_ready(struct system *of, int dim, int edge, double perturb, double support)
 {
-    struct solver_box box = clouds_box(dim, edge, perturb, 29);
-    double radius = support * box.spacing * (1.0 - solver_kernel_margin);
     struct solver_error error;
-    *of = (struct system){.cloud = clouds_make(&box)};
-    CU_ASSERT_PTR_NOT_NULL_FATAL(of->cloud);
-    CU_ASSERT_FATAL(solver_graph_build(of->cloud, radius, &of->graph, &error));
-    CU_ASSERT_FATAL(solver_closure_open(&of->closure, of->cloud, &of->graph, &error));
-    for (size_t a = 0; a < of->cloud->count; a++) {
-        for (size_t ab = of->graph.row[a]; ab < of->graph.row[a + 1]; ab++) {
-            double square = 0.0, slope;
-            for (size_t i = 0; i < (size_t)dim; i++) {
-                double d = of->cloud->X[of->graph.neighbour[ab] * (size_t)dim + i] - of->cloud->X[a * (size_t)dim + i];
-                square += d * d;
-            }
-            of->closure.weight[ab] = solver_kernel(2.0 * sqrt(square) / radius, &slope);
-        }
-    }
-    CU_ASSERT_FATAL(solver_closure_ready(&of->closure, radius, &error));
-    of->width = (size_t)(dim + 1) * of->closure.loops->lanes;
-}
-
-static void close_system(struct system *of)
-{
-    solver_closure_close(&of->closure);
-    solver_graph_free(&of->graph);
-    solver_cloud_free(of->cloud);
+    open_system(of, dim, edge, perturb, support, 29);
+    CU_ASSERT_FATAL(solver_closure_ready(&of->closure, of->radius, &error));
 }
 
 /* Splines x of a level, as multipliers of particles. */
@@ -109,7 +76,7 @@ static void spaces(void)
 {
     for (int dim = 1; dim <= 3; dim++) {
         struct system of;
-        open_system(&of, dim, dim == 1 ? 90 : dim == 2 ? 50 : 12, 0.2, 2.1);
+        open_ready(&of, dim, dim == 1 ? 90 : dim == 2 ? 50 : 12, 0.2, 2.1);
         CU_ASSERT(of.closure.levels >= 3);
         for (int level = 0; level < of.closure.levels; level++) {
             energies(&of, level);
@@ -165,7 +132,7 @@ static void narrow_matrix(void)
 {
     for (int dim = 1; dim <= 3; dim++) {
         struct system of;
-        open_system(&of, dim, 9, 0.2, 2.1);
+        open_ready(&of, dim, 9, 0.2, 2.1);
         struct solver_closure *closure = &of.closure;
         size_t lanes = closure->loops->lanes, width = closure->smoother->width, d = (size_t)dim;
         uint64_t state = 11;
@@ -202,7 +169,7 @@ static void tiny_changes(void)
     volatile float tiny = 1e-40f;
     for (int dim = 1; dim <= 3; dim++) {
         struct system of;
-        open_system(&of, dim, 9, 0.0, 2.1);
+        open_ready(&of, dim, 9, 0.0, 2.1);
         struct solver_closure *closure = &of.closure;
         size_t numbers = of.cloud->count * closure->smoother->width, made = 0;
         for (size_t at = 0; at < numbers; at++) {
@@ -234,7 +201,7 @@ static void iterations(void)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         for (int size = 0; size < 2; size++) {
             struct system of;
-            open_system(&of, cases[i].dim, cases[i].edge[size], cases[i].perturb, cases[i].support);
+            open_ready(&of, cases[i].dim, cases[i].edge[size], cases[i].perturb, cases[i].support);
             fill(&of);
             double first = solver_closure_largest(&of.closure, of.closure.residual);
             double left = solver_closure_solve(&of.closure, 1e-8 * first, 1000);
@@ -251,7 +218,7 @@ static void no_solution(void)
 {
     for (int dim = 1; dim <= 3; dim++) {
         struct system of;
-        open_system(&of, dim, 8, 0.2, 2.2);
+        open_ready(&of, dim, 8, 0.2, 2.2);
         for (size_t a = 0; a < of.cloud->count; a++) {
             of.closure.residual[a * of.width] = 1e-3;
         }
@@ -273,11 +240,11 @@ static void same_bytes(void)
         struct system one, three;
         int edge = dim == 1 ? 900 : dim == 2 ? 40 : 11;
         omp_set_num_threads(1);
-        open_system(&one, dim, edge, 0.2, 2.1);
+        open_ready(&one, dim, edge, 0.2, 2.1);
         fill(&one);
         (void)solver_closure_solve(&one.closure, 0.0, 20);
         omp_set_num_threads(3);
-        open_system(&three, dim, edge, 0.2, 2.1);
+        open_ready(&three, dim, edge, 0.2, 2.1);
         fill(&three);
         (void)solver_closure_solve(&three.closure, 0.0, 20);
         size_t bytes = one.cloud->count * one.width * sizeof(double);

@@ -1,8 +1,7 @@
 /* Ranks: which particles are in them, and that the loops that take each pair once agree with the others. The linker
  * puts the function __wrap_ in front of the solver's (tests/share.cmake). */
 #include "solver/path.h"
-#include "solver/stencil.h"
-#include "tests/unit/clouds.h"
+#include "tests/unit/lattices.h"
 #include "tests/unit/runs.h"
 
 enum finding { FOUND, NONE, ALONG_WRONG, ACROSS_WRONG, END_WRONG }; /* one weight by a thousandth */
@@ -28,33 +27,10 @@ bool __wrap_solver_stencil_find_ranks(struct solver_stencil *stencil, struct sol
 }
 // NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 
-struct made {
-    struct solver_cloud *cloud;
-    struct solver_stencil *stencil;
-};
-
-static struct made make(const char *name, int edge)
-{
-    struct solver_box box = clouds_box(2, edge, 0.0, 3);
-    struct made made = {.cloud = clouds_make(&box)};
-    struct solver_error error;
-    CU_ASSERT_PTR_NOT_NULL_FATAL(made.cloud);
-    CU_ASSERT_FATAL(solver_stencil_create(solver_stencil_find(name), made.cloud, 2.1, &made.stencil, &error) &&
-                    solver_stencil_align(made.stencil, made.cloud, &error) &&
-                    solver_stencil_share(made.stencil, &error));
-    return made;
-}
-
 static void find(struct made *made)
 {
     struct solver_error error;
     CU_ASSERT_FATAL(__real_solver_stencil_find_ranks(made->stencil, &error));
-}
-
-static void let_go(struct made *made)
-{
-    solver_stencil_free(made->stencil);
-    solver_cloud_free(made->cloud);
 }
 
 /* Pairs of particle a that are not where a rank says, or weigh something else; `kind` of its place in it. */
@@ -81,12 +57,12 @@ static size_t wrong_pairs(const struct solver_stencil *stencil, const struct sol
 static void test_lattice(void)
 {
     static const int edges[] = {4, 20, 21, SOLVER_RANK_MOST - 1};
-    struct made longer = make("sbp2", SOLVER_RANK_MOST);
+    struct made longer = make("sbp2", 2, SOLVER_RANK_MOST);
     find(&longer);
     CU_ASSERT_EQUAL(longer.stencil->rank_count, 0);
     let_go(&longer);
     for (size_t i = 0; i < sizeof edges / sizeof *edges; i++) {
-        struct made made = make("sbp2", edges[i]);
+        struct made made = make("sbp2", 2, edges[i]);
         const struct solver_stencil *stencil = made.stencil;
         size_t edge = (size_t)edges[i] + 1;
         size_t wrong = 0;
@@ -113,7 +89,7 @@ static void test_ends(void)
 {
     enum { EDGE = 21, AT = 10 * EDGE + 10 };
     for (int broken = 0; broken < 3; broken++) {
-        struct made made = make("sbp2", EDGE - 1);
+        struct made made = make("sbp2", 2, EDGE - 1);
         struct solver_stencil *stencil = made.stencil;
         size_t record = stencil->graph.row[AT] + solver_stencil_shift(stencil, AT);
         if (broken == 0) {
@@ -139,7 +115,7 @@ static void test_others(void)
 {
     static const char *const names[] = {"closed", "sbp4"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        struct made made = make(names[i], 12);
+        struct made made = make(names[i], 2, 12);
         find(&made);
         CU_ASSERT_EQUAL(made.stencil->rank_count, 0);
         CU_ASSERT_PTR_NULL(made.stencil->rank);

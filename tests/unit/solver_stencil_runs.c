@@ -1,8 +1,7 @@
 /* Particles that are abreast: which they are, and that no number of a run depends on it. The linker puts the function
  * __wrap_ in front of the solver's (tests/share.cmake). */
 #include "solver/path.h"
-#include "solver/stencil.h"
-#include "tests/unit/clouds.h"
+#include "tests/unit/lattices.h"
 #include "tests/unit/runs.h"
 
 enum finding { FOUND, NONE, WRONG }; /* those that are, none, or a particle more in each */
@@ -35,33 +34,10 @@ bool __wrap_solver_stencil_find_ranks(struct solver_stencil *stencil, struct sol
 }
 // NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 
-struct made {
-    struct solver_cloud *cloud;
-    struct solver_stencil *stencil;
-};
-
-static struct made make(const char *name, int dim, int edge)
-{
-    struct solver_box box = clouds_box(dim, edge, 0.0, 3);
-    struct made made = {.cloud = clouds_make(&box)};
-    struct solver_error error;
-    CU_ASSERT_PTR_NOT_NULL_FATAL(made.cloud);
-    CU_ASSERT_FATAL(solver_stencil_create(solver_stencil_find(name), made.cloud, 2.1, &made.stencil, &error) &&
-                    solver_stencil_align(made.stencil, made.cloud, &error) &&
-                    solver_stencil_share(made.stencil, &error));
-    return made;
-}
-
 static void find(struct made *made)
 {
     struct solver_error error;
     CU_ASSERT_FATAL(__real_solver_stencil_find_runs(made->stencil, &error));
-}
-
-static void let_go(struct made *made)
-{
-    solver_stencil_free(made->stencil);
-    solver_cloud_free(made->cloud);
 }
 
 /* Whether particle b has what loops take from particle a in its place. */
