@@ -6,9 +6,9 @@
 #include "solver/stencil_ranks.h"
 #include "solver/upwind_ranks.h"
 
-#if DIM == 2
+#if DIM > 1
 /* Fewer particles than LEAST go with the others: on all paths the same, as bits differ by round-off. */
-enum { LEAST = 10, PAD = 8 };
+enum { LEAST = DIM == 2 ? 10 : 4, PAD = 8 };
 
 static inline wide load_wide(const real *from)
 {
@@ -62,7 +62,7 @@ static size_t first_rank(const struct solver_upwind *work, size_t a)
 /* Registers of the baseline are narrow, and tests count its operations. */
 static bool has_ranks(const struct solver_upwind *work)
 {
-    return REGISTER_BYTES > 16 && work->rank != NULL && !work->frozen && work->reconstruct;
+    return REGISTER_BYTES > 16 && work->rank != NULL;
 }
 
 typedef void solver_rank_part(const struct solver_upwind *work, const struct part *part, void *with);

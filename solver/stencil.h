@@ -94,7 +94,7 @@ bool solver_stencil_share(struct solver_stencil *stencil, struct solver_error *e
 /* Finds particles that are abreast, as in the rows of a lattice: loops take several of them at a time. After rows are
  * sorted and shared, if they are. */
 bool solver_stencil_find_runs(struct solver_stencil *stencil, struct solver_error *error);
-/* Finds particles in ranks, in the plane, where rows are sorted. Before pairs are narrowed. */
+/* Finds particles in ranks, in the plane and in space, where rows are sorted. Before pairs are narrowed. */
 bool solver_stencil_find_ranks(struct solver_stencil *stencil, struct solver_error *error);
 /* Rounds pairs to single precision. Those that are opposite stay so, and sums of them are taken in double precision, so
  * that forces are equal and opposite to round-off of a double, and divergence and gradient each other's adjoint. Pairs

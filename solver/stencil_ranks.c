@@ -3,15 +3,17 @@
 #include "solver/memory.h"
 #include "solver/stencil.h"
 
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A particle that may be in a rank: neighbours at most on either side along each axis, along one of them with the
  * numbers beside its own. */
 struct member {
-    int axis;
     bool left, right;
-    size_t below, above;
-    double weight[2]; /* |C_ab| along the axis and across; 0: there are none */
+    size_t below[2], above[2];
+    int axis[3];      /* the one along and those across */
+    double weight[3]; /* |C_ab| along them; 0: there are none */
 };
 
 /* Where neighbours along axis I are, those with smaller numbers and those with larger; 0: none. False if there is more
@@ -25,7 +27,7 @@ static bool look(const struct solver_stencil *stencil, size_t a, int I, size_t f
         size_t b = stencil->graph.neighbour[ab];
         const double *C = solver_stencil_C(stencil, ab + solver_stencil_shift(stencil, a));
         double along = b > a ? C[I] : -C[I];
-        if (away[b > a] != 0 || along <= 0.0 || C[2] != along || (ab > first && along != *weight)) {
+        if (away[b > a] != 0 || along <= 0.0 || C[stencil->dim] != along || (ab > first && along != *weight)) {
             return false;
         }
         away[b > a] = b > a ? b - a : a - b;
@@ -36,30 +38,46 @@ static bool look(const struct solver_stencil *stencil, size_t a, int I, size_t f
 
 static bool describe(const struct solver_stencil *stencil, size_t a, struct member *of)
 {
-    const size_t *row = stencil->graph.row;
-    size_t between = row[a] + stencil->along[2 * a];
-    size_t away[2][2];
-    double weight[2];
-    if (!look(stencil, a, 0, row[a], between, away[0], &weight[0]) ||
-        !look(stencil, a, 1, between, row[a + 1], away[1], &weight[1])) {
-        return false;
+    int dim = stencil->dim;
+    size_t lanes = dim == 3 ? 4 : (size_t)dim;
+    size_t away[3][2] = {{0}};
+    double weight[3] = {0.0};
+    size_t end = stencil->graph.row[a];
+    int along = dim - 1;
+    for (int I = 0; I < dim; I++) {
+        size_t first = end;
+        end += stencil->along[lanes * a + (size_t)I];
+        if (!look(stencil, a, I, first, end, away[I], &weight[I])) {
+            return false;
+        }
+        along = away[I][0] == 1 || away[I][1] == 1 ? I : along;
     }
-    int axis = away[0][0] == 1 || away[0][1] == 1 ? 0 : 1;
-    *of = (struct member){.axis = axis,
-                          .left = away[axis][0] == 1,
-                          .right = away[axis][1] == 1,
-                          .below = away[1 - axis][0],
-                          .above = away[1 - axis][1],
-                          .weight = {weight[axis], weight[1 - axis]}};
-    return away[axis][0] <= 1 && away[axis][1] <= 1;
+    *of = (struct member){.left = away[along][0] == 1, .right = away[along][1] == 1, .axis = {along}};
+    of->weight[0] = weight[along];
+    for (int I = 0, across = 0; I < dim; I++) {
+        if (I != along) {
+            of->below[across] = away[I][0];
+            of->above[across++] = away[I][1];
+            of->axis[across] = I;
+            of->weight[across] = weight[I];
+        }
+    }
+    return away[along][0] <= 1 && away[along][1] <= 1;
 }
 
 /* Whether particles that are neighbours across agree on how far that is. */
 static bool agrees(const struct solver_stencil *stencil, size_t a, const struct member *of)
 {
     struct member other;
-    return (of->below == 0 || (describe(stencil, a - of->below, &other) && other.above == of->below)) &&
-           (of->above == 0 || (describe(stencil, a + of->above, &other) && other.below == of->above));
+    for (int across = 0; across < 2; across++) {
+        size_t below = of->below[across];
+        size_t above = of->above[across];
+        if ((below > 0 && !(describe(stencil, a - below, &other) && other.above[across] == below)) ||
+            (above > 0 && !(describe(stencil, a + above, &other) && other.below[across] == above))) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /* Whether particle a + 1 follows a in its rank. Only the ends of a row have a volume and weights across of their own.
@@ -67,9 +85,13 @@ static bool agrees(const struct solver_stencil *stencil, size_t a, const struct 
 static bool follows(const struct solver_stencil *stencil, size_t a, const struct member *of, const struct member *next)
 {
     bool inside = of->left && next->right;
-    return of->right && next->left && of->axis == next->axis && of->below == next->below && of->above == next->above &&
-           of->weight[0] == next->weight[0] &&
-           (!inside || (of->weight[1] == next->weight[1] && stencil->V[a] == stencil->V[a + 1]));
+    bool same = of->right && next->left && of->axis[0] == next->axis[0] && of->weight[0] == next->weight[0] &&
+                (!inside || stencil->V[a] == stencil->V[a + 1]);
+    for (int across = 0; same && across < 2; across++) {
+        same = of->below[across] == next->below[across] && of->above[across] == next->above[across] &&
+               (!inside || of->weight[1 + across] == next->weight[1 + across]);
+    }
+    return same;
 }
 
 static void weigh(const struct solver_stencil *stencil, struct solver_rank *rank)
@@ -78,8 +100,8 @@ static void weigh(const struct solver_stencil *stencil, struct solver_rank *rank
     for (int kind = 0; kind < SOLVER_RANK_KINDS; kind++) {
         struct member of = {.weight = {0}};
         (void)describe(stencil, at[kind], &of);
-        for (int across = 0; across < 2; across++) {
-            rank->weight[across][kind] = of.weight[across] / (2.0 * stencil->V[at[kind]]);
+        for (int I = 0; I < stencil->dim; I++) {
+            rank->weight[I][kind] = of.weight[I] / (2.0 * stencil->V[at[kind]]);
         }
     }
 }
@@ -87,6 +109,7 @@ static void weigh(const struct solver_stencil *stencil, struct solver_rank *rank
 /* All ranks: how many, and into `rank` unless it is NULL. */
 static size_t find_all(const struct solver_stencil *stencil, struct solver_rank *rank)
 {
+    size_t most = stencil->dim == 2 ? SOLVER_RANK_MOST : SIZE_MAX;
     size_t found = 0;
     size_t end;
     for (size_t a = 0; a < stencil->count; a = end) {
@@ -103,12 +126,14 @@ static size_t find_all(const struct solver_stencil *stencil, struct solver_rank 
             of = next;
             end++;
         }
-        if (end - a < SOLVER_RANK_KINDS || end - a > SOLVER_RANK_MOST) {
+        if (end - a < SOLVER_RANK_KINDS || end - a > most) {
             continue;
         }
         if (rank != NULL) {
-            rank[found] = (struct solver_rank){
-                .begin = a, .end = end, .below = first.below, .above = first.above, .axis = first.axis};
+            rank[found] = (struct solver_rank){.begin = a, .end = end};
+            memcpy(rank[found].below, first.below, sizeof first.below);
+            memcpy(rank[found].above, first.above, sizeof first.above);
+            memcpy(rank[found].axis, first.axis, sizeof first.axis);
             weigh(stencil, &rank[found]);
         }
         found++;
@@ -118,7 +143,7 @@ static size_t find_all(const struct solver_stencil *stencil, struct solver_rank 
 
 bool solver_stencil_find_ranks(struct solver_stencil *stencil, struct solver_error *error)
 {
-    if (stencil->dim != 2 || stencil->along == NULL) {
+    if (stencil->dim < 2 || stencil->along == NULL) {
         return true;
     }
     size_t count = find_all(stencil, NULL);

@@ -1,5 +1,6 @@
-/* Ranks: particles of a row of a lattice in the plane, each the neighbour of the next, and the rows below and above,
- * which are neighbours as a whole. Loops then take every pair once for both its particles. */
+/* Ranks: particles of a row of a lattice, in the plane or in space, each the neighbour of the next, and the rows beside
+ * it, which are neighbours as a whole. Gradients then are differences of rows; in the plane loops take every pair once
+ * for both its particles. */
 #ifndef SOLVER_STENCIL_RANKS_H
 #define SOLVER_STENCIL_RANKS_H
 
@@ -8,16 +9,16 @@
 
 enum { SOLVER_RANK_FIRST, SOLVER_RANK_INSIDE, SOLVER_RANK_LAST, SOLVER_RANK_KINDS };
 
-/* Of longer rows a piece of work has too few for what is kept from one row for the next. */
+/* In the plane; of longer rows a piece of work has too few for what is kept from one row for the next. */
 enum { SOLVER_RANK_MOST = 128 };
 
-/* Particles [begin, end), three or more, SOLVER_RANK_MOST at most. Those of a pair have one weight, |C_ab|, which is
- * its face measure as well, and C_ab points as b lies. */
+/* Particles [begin, end), three or more. Those of a pair have one weight, |C_ab|, which is its face measure as well, and
+ * C_ab points as b lies. */
 struct solver_rank {
     size_t begin, end;
-    size_t below, above;                 /* a - below and a + above are neighbours of a across; 0: none */
-    int axis;                            /* along which they follow one another */
-    double weight[2][SOLVER_RANK_KINDS]; /* [1/m] |C_ab| / 2 V_a of pairs along it and across; 0: there are none */
+    size_t below[2], above[2];           /* a - below and a + above are neighbours of a across; 0: none */
+    int axis[3];                         /* along which they follow one another, and those across */
+    double weight[3][SOLVER_RANK_KINDS]; /* [1/m] |C_ab| / 2 V_a of pairs along these axes; 0: there are none */
 };
 
 #endif

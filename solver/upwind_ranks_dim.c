@@ -238,7 +238,7 @@ static void set_out(const struct part *part, struct hand *hand)
     struct planes *own = &hand->planes[hand->own];
     struct planes *other = &hand->planes[1 - hand->own];
     struct fluxes *from_below = &hand->across[hand->own];
-    size_t below = part->rank->below;
+    size_t below = part->rank->below[0];
     size_t at = part->at;
     size_t count = unknown(part, hand);
     if (count == 0) {
@@ -248,7 +248,7 @@ static void set_out(const struct part *part, struct hand *hand)
     to_planes(hand->work, part->begin - part->left, part->left + count + more, at - part->left, own);
     if (below > 0) {
         to_planes(hand->work, part->begin - below, count, at, other);
-        struct side_by_side pairs = {other, own, at, at, count, 1 - part->rank->axis, from_below};
+        struct side_by_side pairs = {other, own, at, at, count, part->rank->axis[1], from_below};
         hand->add_fluxes(&pairs, &hand->z);
     } else {
         no_fluxes(from_below, at, count);
@@ -262,7 +262,7 @@ static void go_along(const struct part *part, struct hand *hand)
     struct fluxes *to = &hand->along;
     size_t count = part->end - part->begin;
     size_t first = part->at - part->left;
-    struct side_by_side pairs = {own, own, first, first + 1, part->left + count + part->right - 1, part->rank->axis,
+    struct side_by_side pairs = {own, own, first, first + 1, part->left + count + part->right - 1, part->rank->axis[0],
                                  to};
     hand->add_fluxes(&pairs, &hand->z);
     for (int i = 0; i < FLUXES; i++) {
@@ -277,12 +277,12 @@ static void go_across(const struct part *part, struct hand *hand)
 {
     struct planes *other = &hand->planes[1 - hand->own];
     struct fluxes *to = &hand->across[1 - hand->own];
-    size_t above = part->rank->above;
+    size_t above = part->rank->above[0];
     size_t at = part->at;
     size_t count = part->end - part->begin;
     if (above > 0) {
         to_planes(hand->work, part->begin + above, count, at, other);
-        struct side_by_side pairs = {&hand->planes[hand->own], other, at, at, count, 1 - part->rank->axis, to};
+        struct side_by_side pairs = {&hand->planes[hand->own], other, at, at, count, part->rank->axis[1], to};
         hand->add_fluxes(&pairs, &hand->z);
     } else {
         no_fluxes(to, at, count);
@@ -352,7 +352,7 @@ static void rates_of(const struct part *part, struct hand *hand)
     if (hand->work->evolves_H) {
         rates_of_H(hand->work, part->begin, part->end);
     }
-    size_t above = part->rank->above;
+    size_t above = part->rank->above[0];
     hand->own = 1 - hand->own;
     hand->begin = part->begin + above;
     hand->end = above > 0 ? part->end + above : 0;
@@ -368,7 +368,7 @@ static void rates_of_part(const struct solver_upwind *work, const struct part *p
 static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
 {
     static const size_t constants[PLACES]; /* all are of one material */
-    if (!has_ranks(work)) {
+    if (!has_ranks(work) || work->frozen || !work->reconstruct || work->whole_jump) {
         others(work, begin, end);
         return;
     }
@@ -386,11 +386,6 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end, so
     for_ranks(work, begin, end, rates_of_part, &hand, others);
 }
 #else
-static void gradients(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
-{
-    others(work, begin, end);
-}
-
 static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
 {
     others(work, begin, end);
