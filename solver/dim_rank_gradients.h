@@ -5,25 +5,6 @@
 #include "solver/dim_ranks.h"
 
 #if DIM > 1
-/* How far the neighbours on either side of a particle are along each axis, or 0 if there is none, and the weights of
- * their differences. */
-struct reach {
-    size_t back[DIM], ahead[DIM];
-    double weight[DIM];
-};
-
-static struct reach reach_of(const struct solver_rank *rank, int kind)
-{
-    struct reach reach;
-    for (int which = 0; which < DIM; which++) {
-        int I = rank->axis[which];
-        reach.back[I] = which == 0 ? kind != SOLVER_RANK_FIRST : rank->below[which - 1];
-        reach.ahead[I] = which == 0 ? kind != SOLVER_RANK_LAST : rank->above[which - 1];
-        reach.weight[I] = rank->weight[which][kind];
-    }
-    return reach;
-}
-
 /* Derivatives along each axis of a field with `lanes` numbers for each particle, at `from`. */
 static inline __attribute__((always_inline)) void slopes_at(const real *from, size_t lanes, const struct reach *reach,
                                                             wide of[DIM])
@@ -55,59 +36,33 @@ static inline void store_vectors(real *to, const wide of[DIM])
 #endif
 }
 
-/* Particles [begin, end), a register's width or more, that have both neighbours along their rank. */
-static void gradients_inside(const struct solver_upwind *work, size_t begin, size_t end, const struct reach *reach)
+static inline __attribute__((always_inline)) void gradients_of_v(const struct solver_upwind *work, size_t begin,
+                                                                 size_t end, const struct reach *reach)
 {
-    size_t count = end - begin;
     wide of[DIM];
-    for (size_t k = 0; k < LANES * count; k = next_block(k, LANES * count)) {
+    for (size_t k = 0; k < LANES * (end - begin); k = next_block(k, LANES * (end - begin))) {
         size_t at[PLACES] = {begin + k / LANES};
         slopes_at(work->v + LANES * at[0], LANES, reach, of);
         scatter_columns(work->F_rate, at, of);
     }
-    for (size_t k = 0; work->pressure_gradient != NULL && k < count; k = next_block(k, count)) {
-        slopes_at(work->pressure + begin + k, 1, reach, of);
-        store_vectors(work->pressure_gradient + LANES * (begin + k), of);
-    }
 }
 
-/* Of one particle. */
-static void gradients_at(const struct solver_upwind *work, size_t a, const struct reach *reach)
+static inline __attribute__((always_inline)) void gradients_of_pressure(const struct solver_upwind *work, size_t begin,
+                                                                        size_t end, const struct reach *reach)
 {
-    vec of_pressure = {0};
-    for (int I = 0; I < DIM; I++) {
-        size_t ahead = a + reach->ahead[I];
-        size_t back = a - reach->back[I];
-        vec of_v = splat(reach->weight[I]) * (load(work->v + ahead * LANES) - load(work->v + back * LANES));
-        store(work->F_rate + (a * DIM + (size_t)I) * LANES, of_v);
-        if (work->pressure_gradient != NULL) {
-            of_pressure[I] = reach->weight[I] * (work->pressure[ahead] - work->pressure[back]);
-        }
-    }
-    if (work->pressure_gradient != NULL) {
-        store(work->pressure_gradient + a * LANES, of_pressure);
+    wide of[DIM];
+    for (size_t k = 0; k < end - begin; k = next_block(k, end - begin)) {
+        slopes_at(work->pressure + begin + k, 1, reach, of);
+        store_vectors(work->pressure_gradient + LANES * (begin + k), of);
     }
 }
 
 static void gradients_of_part(const struct solver_upwind *work, const struct part *part, void *none)
 {
     (void)none;
-    struct reach inside = reach_of(part->rank, SOLVER_RANK_INSIDE);
-    size_t begin = part->begin;
-    size_t end = part->end;
-    if (part->left == 0) {
-        struct reach first = reach_of(part->rank, SOLVER_RANK_FIRST);
-        gradients_at(work, begin++, &first);
-    }
-    if (part->right == 0) {
-        struct reach last = reach_of(part->rank, SOLVER_RANK_LAST);
-        gradients_at(work, --end, &last);
-    }
-    while (begin < end && end - begin < WIDTH) {
-        gradients_at(work, begin++, &inside);
-    }
-    if (begin < end) {
-        gradients_inside(work, begin, end, &inside);
+    by_reach(work, part, GROUP, gradients_of_v);
+    if (work->pressure_gradient != NULL) {
+        by_reach(work, part, WIDTH, gradients_of_pressure);
     }
 }
 

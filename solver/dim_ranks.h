@@ -8,7 +8,7 @@
 
 #if DIM > 1
 /* Fewer particles than LEAST go with the others: on all paths the same, as bits differ by round-off. */
-enum { LEAST = DIM == 2 ? 10 : 4, PAD = 8 };
+enum { LEAST = 10, PAD = 8 };
 
 static inline wide load_wide(const real *from)
 {
@@ -63,6 +63,50 @@ static size_t first_rank(const struct solver_upwind *work, size_t a)
 static bool has_ranks(const struct solver_upwind *work)
 {
     return REGISTER_BYTES > 16 && work->rank != NULL;
+}
+
+/* How far the neighbours on either side of a particle are along each axis, or 0 if there is none, in particles and half
+ * of it in m, and the weights of their differences. */
+struct reach {
+    size_t back[DIM], ahead[DIM];
+    double weight[DIM], half[DIM][2];
+};
+
+static inline __attribute__((always_inline)) struct reach reach_of(const struct solver_rank *rank, int kind)
+{
+    struct reach reach;
+    for (int I = 0; I < DIM; I++) {
+        bool along = I == rank->axis;
+        reach.back[I] = along && kind == SOLVER_RANK_FIRST ? 0 : rank->back[I];
+        reach.ahead[I] = along && kind == SOLVER_RANK_LAST ? 0 : rank->ahead[I];
+        reach.weight[I] = rank->weight[I][kind];
+        reach.half[I][0] = along && kind == SOLVER_RANK_FIRST ? 0.0 : rank->half[I][0];
+        reach.half[I][1] = along && kind == SOLVER_RANK_LAST ? 0.0 : rank->half[I][1];
+    }
+    return reach;
+}
+
+typedef void solver_rank_reach(const struct solver_upwind *work, size_t begin, size_t end, const struct reach *reach);
+
+/* The particles of a part, by a loop that takes `least` at a time. As many are taken for one at an end of its rank, and
+ * the others of them then done again. */
+static inline __attribute__((always_inline)) void by_reach(const struct solver_upwind *work, const struct part *part,
+                                                           size_t least, solver_rank_reach *loop)
+{
+    size_t begin = part->begin;
+    size_t end = part->end;
+    if (part->left == 0) {
+        struct reach first = reach_of(part->rank, SOLVER_RANK_FIRST);
+        loop(work, begin, begin + least, &first);
+        begin++;
+    }
+    if (part->right == 0) {
+        struct reach last = reach_of(part->rank, SOLVER_RANK_LAST);
+        loop(work, end - least, end, &last);
+        end--;
+    }
+    struct reach inside = reach_of(part->rank, SOLVER_RANK_INSIDE);
+    loop(work, begin, end, &inside);
 }
 
 typedef void solver_rank_part(const struct solver_upwind *work, const struct part *part, void *with);

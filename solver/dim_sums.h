@@ -64,6 +64,16 @@ static inline __attribute__((always_inline)) many compression(const struct solve
     return sum;
 }
 
+static inline __attribute__((always_inline)) void store_H_rates(const struct solver_upwind *work,
+                                                                const size_t at[PLACES])
+{
+    for (int g = 0; g < GROUP; g++) {
+        size_t a = place(at, g);
+        struct tensor F = work->frozen ? identity() : load_measure(work->F + a * TENSOR);
+        store_tensor(work->H_rate + a * TENSOR, tensor_cross(F, load_tensor(work->F_rate + a * TENSOR)));
+    }
+}
+
 /* `scales` are those of the group. */
 static inline __attribute__((always_inline)) void finish(const struct solver_upwind *work, const size_t at[PLACES],
                                                          const struct scales *scales, struct sums sums)
@@ -78,10 +88,8 @@ static inline __attribute__((always_inline)) void finish(const struct solver_upw
     if (work->evolves_J) {
         scatter_many(work->J_rate, at, compression(work, at) + sums.volume * many_of(scales->volume));
     }
-    for (int g = 0; work->evolves_H && g < GROUP; g++) {
-        size_t a = place(at, g);
-        struct tensor F = work->frozen ? identity() : load_measure(work->F + a * TENSOR);
-        store_tensor(work->H_rate + a * TENSOR, tensor_cross(F, load_tensor(work->F_rate + a * TENSOR)));
+    if (work->evolves_H) {
+        store_H_rates(work, at);
     }
 }
 

@@ -85,7 +85,7 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     return (part->symmetry == NULL || solver_symmetry_keep(*stencil, part, stencil, error)) &&
            (!align || solver_stencil_align(*stencil, part, error)) && solver_stencil_share(*stencil, error) &&
            (!runs || solver_stencil_find_runs(*stencil, error)) &&
-           (!ranks || solver_stencil_find_ranks(*stencil, error)) &&
+           (!ranks || solver_stencil_find_ranks(*stencil, part, error)) &&
            (strcmp(scene->precision, "double") == 0 || solver_stencil_narrow(*stencil, error));
 }
 

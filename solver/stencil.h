@@ -95,7 +95,8 @@ bool solver_stencil_share(struct solver_stencil *stencil, struct solver_error *e
  * sorted and shared, if they are. */
 bool solver_stencil_find_runs(struct solver_stencil *stencil, struct solver_error *error);
 /* Finds particles in ranks, in the plane and in space, where rows are sorted. Before pairs are narrowed. */
-bool solver_stencil_find_ranks(struct solver_stencil *stencil, struct solver_error *error);
+bool solver_stencil_find_ranks(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                               struct solver_error *error);
 /* Rounds pairs to single precision. Those that are opposite stay so, and sums of them are taken in double precision, so
  * that forces are equal and opposite to round-off of a double, and divergence and gradient each other's adjoint. Pairs
  * of sbp2, and of sbp4 away from the boundary, are whole multiples of the unit and stay as they are; elsewhere closure

@@ -1,19 +1,20 @@
 #include "solver/stencil_ranks.h"
 
+#include "solver/cloud.h"
 #include "solver/memory.h"
 #include "solver/stencil.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* A particle that may be in a rank: neighbours at most on either side along each axis, along one of them with the
  * numbers beside its own. */
 struct member {
-    bool left, right;
-    size_t below[2], above[2];
-    int axis[3];      /* the one along and those across */
-    double weight[3]; /* |C_ab| along them; 0: there are none */
+    int axis;
+    size_t away[3][2]; /* how far those along each axis are, in particles, back and ahead; 0: there are none */
+    double weight[3];  /* |C_ab|; 0: there are none */
 };
 
 /* Where neighbours along axis I are, those with smaller numbers and those with larger; 0: none. False if there is more
@@ -38,42 +39,29 @@ static bool look(const struct solver_stencil *stencil, size_t a, int I, size_t f
 
 static bool describe(const struct solver_stencil *stencil, size_t a, struct member *of)
 {
-    int dim = stencil->dim;
-    size_t lanes = dim == 3 ? 4 : (size_t)dim;
-    size_t away[3][2] = {{0}};
-    double weight[3] = {0.0};
+    size_t lanes = stencil->dim == 3 ? 4 : (size_t)stencil->dim;
     size_t end = stencil->graph.row[a];
-    int along = dim - 1;
-    for (int I = 0; I < dim; I++) {
+    *of = (struct member){.axis = stencil->dim - 1};
+    for (int I = 0; I < stencil->dim; I++) {
         size_t first = end;
         end += stencil->along[lanes * a + (size_t)I];
-        if (!look(stencil, a, I, first, end, away[I], &weight[I])) {
+        if (!look(stencil, a, I, first, end, of->away[I], &of->weight[I])) {
             return false;
         }
-        along = away[I][0] == 1 || away[I][1] == 1 ? I : along;
+        of->axis = of->away[I][0] == 1 || of->away[I][1] == 1 ? I : of->axis;
     }
-    *of = (struct member){.left = away[along][0] == 1, .right = away[along][1] == 1, .axis = {along}};
-    of->weight[0] = weight[along];
-    for (int I = 0, across = 0; I < dim; I++) {
-        if (I != along) {
-            of->below[across] = away[I][0];
-            of->above[across++] = away[I][1];
-            of->axis[across] = I;
-            of->weight[across] = weight[I];
-        }
-    }
-    return away[along][0] <= 1 && away[along][1] <= 1;
+    return of->away[of->axis][0] <= 1 && of->away[of->axis][1] <= 1;
 }
 
 /* Whether particles that are neighbours across agree on how far that is. */
 static bool agrees(const struct solver_stencil *stencil, size_t a, const struct member *of)
 {
     struct member other;
-    for (int across = 0; across < 2; across++) {
-        size_t below = of->below[across];
-        size_t above = of->above[across];
-        if ((below > 0 && !(describe(stencil, a - below, &other) && other.above[across] == below)) ||
-            (above > 0 && !(describe(stencil, a + above, &other) && other.below[across] == above))) {
+    for (int I = 0; I < stencil->dim; I++) {
+        size_t back = of->away[I][0];
+        size_t ahead = of->away[I][1];
+        if (I != of->axis && ((back > 0 && !(describe(stencil, a - back, &other) && other.away[I][1] == back)) ||
+                              (ahead > 0 && !(describe(stencil, a + ahead, &other) && other.away[I][0] == ahead)))) {
             return false;
         }
     }
@@ -84,75 +72,110 @@ static bool agrees(const struct solver_stencil *stencil, size_t a, const struct 
  */
 static bool follows(const struct solver_stencil *stencil, size_t a, const struct member *of, const struct member *next)
 {
-    bool inside = of->left && next->right;
-    bool same = of->right && next->left && of->axis[0] == next->axis[0] && of->weight[0] == next->weight[0] &&
-                (!inside || stencil->V[a] == stencil->V[a + 1]);
-    for (int across = 0; same && across < 2; across++) {
-        same = of->below[across] == next->below[across] && of->above[across] == next->above[across] &&
-               (!inside || of->weight[1 + across] == next->weight[1 + across]);
+    bool inside = of->away[of->axis][0] == 1 && next->away[next->axis][1] == 1;
+    bool same = of->axis == next->axis && of->away[of->axis][1] == 1 && next->away[next->axis][0] == 1 &&
+                of->weight[of->axis] == next->weight[of->axis] && (!inside || stencil->V[a] == stencil->V[a + 1]);
+    for (int I = 0; same && I < stencil->dim; I++) {
+        same = I == of->axis || (of->away[I][0] == next->away[I][0] && of->away[I][1] == next->away[I][1] &&
+                                 (!inside || of->weight[I] == next->weight[I]));
     }
     return same;
 }
 
-static void weigh(const struct solver_stencil *stencil, struct solver_rank *rank)
+/* What a rank's second particle is, which has neighbours on either side, and the weights of those at its ends. */
+static void settle(const struct solver_stencil *stencil, struct solver_rank *rank)
 {
     size_t at[SOLVER_RANK_KINDS] = {rank->begin, rank->begin + 1, rank->end - 1};
     for (int kind = 0; kind < SOLVER_RANK_KINDS; kind++) {
-        struct member of = {.weight = {0}};
+        struct member of;
         (void)describe(stencil, at[kind], &of);
         for (int I = 0; I < stencil->dim; I++) {
             rank->weight[I][kind] = of.weight[I] / (2.0 * stencil->V[at[kind]]);
+            rank->back[I] = kind == SOLVER_RANK_INSIDE ? of.away[I][0] : rank->back[I];
+            rank->ahead[I] = kind == SOLVER_RANK_INSIDE ? of.away[I][1] : rank->ahead[I];
         }
+        rank->axis = of.axis;
     }
 }
 
+/* Half the distances along axis I of the neighbours of a. */
+static void measure(const struct solver_cloud *cloud, const struct solver_rank *rank, size_t a, int I, double half[2])
+{
+    size_t dim = (size_t)cloud->dim;
+    const double *X = cloud->X + (size_t)I;
+    half[0] = 0.5 * (X[a * dim] - X[(a - rank->back[I]) * dim]);
+    half[1] = 0.5 * (X[(a + rank->ahead[I]) * dim] - X[a * dim]);
+}
+
+/* Sets distances of a rank; false if they differ by more than positions are rounded by. */
+static bool is_even(const struct solver_cloud *cloud, struct solver_rank *rank)
+{
+    size_t dim = (size_t)cloud->dim;
+    for (int I = 0; I < cloud->dim; I++) {
+        size_t end = I == rank->axis; /* particles of an end that lack a neighbour */
+        measure(cloud, rank, rank->begin + 1, I, rank->half[I]);
+        double most = fmax(rank->half[I][0], rank->half[I][1]);
+        for (size_t a = rank->begin + end; a < rank->end - end; a++) {
+            double half[2];
+            double round_off = 4.0 * DBL_EPSILON * (fabs(cloud->X[a * dim + (size_t)I]) + most);
+            measure(cloud, rank, a, I, half);
+            if (fabs(half[0] - rank->half[I][0]) > round_off || fabs(half[1] - rank->half[I][1]) > round_off) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 /* All ranks: how many, and into `rank` unless it is NULL. */
-static size_t find_all(const struct solver_stencil *stencil, struct solver_rank *rank)
+static size_t find_all(const struct solver_stencil *stencil, const struct solver_cloud *cloud, struct solver_rank *rank)
 {
     size_t most = stencil->dim == 2 ? SOLVER_RANK_MOST : SIZE_MAX;
     size_t found = 0;
     size_t end;
     for (size_t a = 0; a < stencil->count; a = end) {
         struct member first;
-        struct member of;
+        struct member last;
         struct member next;
         end = a + 1;
         if (!describe(stencil, a, &first) || !agrees(stencil, a, &first)) {
             continue;
         }
-        of = first;
+        last = first;
         while (end < stencil->count && describe(stencil, end, &next) && agrees(stencil, end, &next) &&
-               follows(stencil, end - 1, &of, &next)) {
-            of = next;
+               follows(stencil, end - 1, &last, &next)) {
+            last = next;
             end++;
         }
         if (end - a < SOLVER_RANK_KINDS || end - a > most) {
             continue;
         }
+        struct solver_rank of = {.begin = a, .end = end};
+        settle(stencil, &of);
+        if (!is_even(cloud, &of)) {
+            continue;
+        }
         if (rank != NULL) {
-            rank[found] = (struct solver_rank){.begin = a, .end = end};
-            memcpy(rank[found].below, first.below, sizeof first.below);
-            memcpy(rank[found].above, first.above, sizeof first.above);
-            memcpy(rank[found].axis, first.axis, sizeof first.axis);
-            weigh(stencil, &rank[found]);
+            rank[found] = of;
         }
         found++;
     }
     return found;
 }
 
-bool solver_stencil_find_ranks(struct solver_stencil *stencil, struct solver_error *error)
+bool solver_stencil_find_ranks(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                               struct solver_error *error)
 {
     if (stencil->dim < 2 || stencil->along == NULL) {
         return true;
     }
-    size_t count = find_all(stencil, NULL);
+    size_t count = find_all(stencil, cloud, NULL);
     if (count == 0) {
         return true;
     }
     if (!solver_alloc((void **)&stencil->rank, count, sizeof *stencil->rank, "ranks", error)) {
         return false;
     }
-    stencil->rank_count = find_all(stencil, stencil->rank);
+    stencil->rank_count = find_all(stencil, cloud, stencil->rank);
     return true;
 }

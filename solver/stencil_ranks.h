@@ -12,13 +12,16 @@ enum { SOLVER_RANK_FIRST, SOLVER_RANK_INSIDE, SOLVER_RANK_LAST, SOLVER_RANK_KIND
 /* In the plane; of longer rows a piece of work has too few for what is kept from one row for the next. */
 enum { SOLVER_RANK_MOST = 128 };
 
-/* Particles [begin, end), three or more. Those of a pair have one weight, |C_ab|, which is its face measure as well, and
- * C_ab points as b lies. */
+/* Particles [begin, end), three or more. Those of a pair have one weight, |C_ab|, which is its face measure as well,
+ * and C_ab points as b lies. All are equally far apart, to round-off of their positions, and so are all from those
+ * below, and from those above. */
 struct solver_rank {
     size_t begin, end;
-    size_t below[2], above[2];           /* a - below and a + above are neighbours of a across; 0: none */
-    int axis[3];                         /* along which they follow one another, and those across */
-    double weight[3][SOLVER_RANK_KINDS]; /* [1/m] |C_ab| / 2 V_a of pairs along these axes; 0: there are none */
+    int axis;                 /* along which they follow one another */
+    size_t back[3], ahead[3]; /* how far neighbours along each axis are, in particles; 0: there are none; along
+                                 `axis` 1, but for those at the ends */
+    double weight[3][SOLVER_RANK_KINDS]; /* [1/m] |C_ab| / 2 V_a of pairs along each axis; 0: there are none */
+    double half[3][2];                   /* [m] half the distance of the one back, and of the one ahead */
 };
 
 #endif

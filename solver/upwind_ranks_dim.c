@@ -5,6 +5,7 @@
 #include "solver/upwind_ranks.h"
 
 #include "solver/dim_rank_gradients.h"
+#include "solver/dim_rank_linear.h"
 #include "solver/dim_terms.h"
 #include "solver/dim_turned.h"
 
@@ -204,7 +205,8 @@ static void set_weights(const struct part *part, struct hand *hand)
     size_t count = part->end - part->begin;
     for (int across = 0; across < 2; across++) {
         real *to = hand->weight[across] + part->at;
-        const double *weight = part->rank->weight[across];
+        int axis = part->rank->axis;
+        const double *weight = part->rank->weight[across ? 1 - axis : axis];
         for (size_t k = 0; k < count; k = next_block(k, count)) {
             store_wide(to + k, wide_of(weight[SOLVER_RANK_INSIDE]));
         }
@@ -238,7 +240,7 @@ static void set_out(const struct part *part, struct hand *hand)
     struct planes *own = &hand->planes[hand->own];
     struct planes *other = &hand->planes[1 - hand->own];
     struct fluxes *from_below = &hand->across[hand->own];
-    size_t below = part->rank->below[0];
+    size_t below = part->rank->back[1 - part->rank->axis];
     size_t at = part->at;
     size_t count = unknown(part, hand);
     if (count == 0) {
@@ -248,7 +250,7 @@ static void set_out(const struct part *part, struct hand *hand)
     to_planes(hand->work, part->begin - part->left, part->left + count + more, at - part->left, own);
     if (below > 0) {
         to_planes(hand->work, part->begin - below, count, at, other);
-        struct side_by_side pairs = {other, own, at, at, count, part->rank->axis[1], from_below};
+        struct side_by_side pairs = {other, own, at, at, count, 1 - part->rank->axis, from_below};
         hand->add_fluxes(&pairs, &hand->z);
     } else {
         no_fluxes(from_below, at, count);
@@ -262,7 +264,7 @@ static void go_along(const struct part *part, struct hand *hand)
     struct fluxes *to = &hand->along;
     size_t count = part->end - part->begin;
     size_t first = part->at - part->left;
-    struct side_by_side pairs = {own, own, first, first + 1, part->left + count + part->right - 1, part->rank->axis[0],
+    struct side_by_side pairs = {own, own, first, first + 1, part->left + count + part->right - 1, part->rank->axis,
                                  to};
     hand->add_fluxes(&pairs, &hand->z);
     for (int i = 0; i < FLUXES; i++) {
@@ -277,12 +279,12 @@ static void go_across(const struct part *part, struct hand *hand)
 {
     struct planes *other = &hand->planes[1 - hand->own];
     struct fluxes *to = &hand->across[1 - hand->own];
-    size_t above = part->rank->above[0];
+    size_t above = part->rank->ahead[1 - part->rank->axis];
     size_t at = part->at;
     size_t count = part->end - part->begin;
     if (above > 0) {
         to_planes(hand->work, part->begin + above, count, at, other);
-        struct side_by_side pairs = {&hand->planes[hand->own], other, at, at, count, part->rank->axis[1], to};
+        struct side_by_side pairs = {&hand->planes[hand->own], other, at, at, count, 1 - part->rank->axis, to};
         hand->add_fluxes(&pairs, &hand->z);
     } else {
         no_fluxes(to, at, count);
@@ -352,7 +354,7 @@ static void rates_of(const struct part *part, struct hand *hand)
     if (hand->work->evolves_H) {
         rates_of_H(hand->work, part->begin, part->end);
     }
-    size_t above = part->rank->above[0];
+    size_t above = part->rank->ahead[1 - part->rank->axis];
     hand->own = 1 - hand->own;
     hand->begin = part->begin + above;
     hand->end = above > 0 ? part->end + above : 0;
@@ -365,13 +367,9 @@ static void rates_of_part(const struct solver_upwind *work, const struct part *p
     rates_of(part, hand);
 }
 
-static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
+static void turned_rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
 {
     static const size_t constants[PLACES]; /* all are of one material */
-    if (!has_ranks(work) || work->frozen || !work->reconstruct || work->whole_jump) {
-        others(work, begin, end);
-        return;
-    }
     struct hand hand;
     hand.work = work;
     hand.add_fluxes = !work->evolves_J          ? add_fluxes_of_momentum
@@ -380,10 +378,27 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end, so
     hand.own = 0;
     hand.begin = hand.end = hand.zero = 0;
     hand.z = impedances(work, constants, work->evolves_J);
-    if (work->lost != NULL) { /* the others note that; rates do not depend on who asks */
+    for_ranks(work, begin, end, rates_of_part, &hand, others);
+}
+#elif DIM == 3
+static void turned_rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
+{
+    others(work, begin, end);
+}
+#endif
+
+#if DIM > 1
+static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
+{
+    bool ranks = has_ranks(work) && work->reconstruct && !work->whole_jump;
+    if (!ranks || work->lost != NULL) { /* the others note that; rates do not depend on who asks */
         others(work, begin, end);
     }
-    for_ranks(work, begin, end, rates_of_part, &hand, others);
+    if (ranks && work->frozen) {
+        for_ranks(work, begin, end, linear_rates_of_part, NULL, others);
+    } else if (ranks) {
+        turned_rates(work, begin, end, others);
+    }
 }
 #else
 static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
