@@ -53,15 +53,24 @@ static bool describe(const struct solver_stencil *stencil, size_t a, struct memb
     return of->away[of->axis][0] <= 1 && of->away[of->axis][1] <= 1;
 }
 
-/* Whether particles that are neighbours across agree on how far that is. */
+static bool lists(const struct solver_stencil *stencil, size_t b, size_t a)
+{
+    for (size_t k = stencil->graph.row[b]; k < stencil->graph.row[b + 1]; k++) {
+        if (stencil->graph.neighbour[k] == a) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether particles that are neighbours across agree on that. */
 static bool agrees(const struct solver_stencil *stencil, size_t a, const struct member *of)
 {
-    struct member other;
     for (int I = 0; I < stencil->dim; I++) {
         size_t back = of->away[I][0];
         size_t ahead = of->away[I][1];
-        if (I != of->axis && ((back > 0 && !(describe(stencil, a - back, &other) && other.away[I][1] == back)) ||
-                              (ahead > 0 && !(describe(stencil, a + ahead, &other) && other.away[I][0] == ahead)))) {
+        if (I != of->axis &&
+            ((back > 0 && !lists(stencil, a - back, a)) || (ahead > 0 && !lists(stencil, a + ahead, a)))) {
             return false;
         }
     }
@@ -107,19 +116,26 @@ static void measure(const struct solver_cloud *cloud, const struct solver_rank *
     half[1] = 0.5 * (X[(a + rank->ahead[I]) * dim] - X[a * dim]);
 }
 
-/* Sets distances of a rank; false if they differ by more than positions are rounded by. */
-static bool is_even(const struct solver_cloud *cloud, struct solver_rank *rank)
+/* What positions are rounded by, and differences of two distances of them, at most. */
+static double round_off(const struct solver_cloud *cloud)
 {
-    size_t dim = (size_t)cloud->dim;
+    double most = 0.0;
+    for (size_t i = 0; i < cloud->count * (size_t)cloud->dim; i++) {
+        most = fmax(most, fabs(cloud->X[i]));
+    }
+    return 4.0 * DBL_EPSILON * most;
+}
+
+/* Sets distances of a rank; false if they differ by more than round-off. */
+static bool is_even(const struct solver_cloud *cloud, double tolerance, struct solver_rank *rank)
+{
     for (int I = 0; I < cloud->dim; I++) {
         size_t end = I == rank->axis; /* particles of an end that lack a neighbour */
         measure(cloud, rank, rank->begin + 1, I, rank->half[I]);
-        double most = fmax(rank->half[I][0], rank->half[I][1]);
         for (size_t a = rank->begin + end; a < rank->end - end; a++) {
             double half[2];
-            double round_off = 4.0 * DBL_EPSILON * (fabs(cloud->X[a * dim + (size_t)I]) + most);
             measure(cloud, rank, a, I, half);
-            if (fabs(half[0] - rank->half[I][0]) > round_off || fabs(half[1] - rank->half[I][1]) > round_off) {
+            if (fabs(half[0] - rank->half[I][0]) > tolerance || fabs(half[1] - rank->half[I][1]) > tolerance) {
                 return false;
             }
         }
@@ -130,6 +146,7 @@ static bool is_even(const struct solver_cloud *cloud, struct solver_rank *rank)
 /* All ranks: how many, and into `rank` unless it is NULL. */
 static size_t find_all(const struct solver_stencil *stencil, const struct solver_cloud *cloud, struct solver_rank *rank)
 {
+    double tolerance = round_off(cloud);
     size_t most = stencil->dim == 2 ? SOLVER_RANK_MOST : SIZE_MAX;
     size_t found = 0;
     size_t end;
@@ -152,7 +169,7 @@ static size_t find_all(const struct solver_stencil *stencil, const struct solver
         }
         struct solver_rank of = {.begin = a, .end = end};
         settle(stencil, &of);
-        if (!is_even(cloud, &of)) {
+        if (!is_even(cloud, tolerance, &of)) {
             continue;
         }
         if (rank != NULL) {

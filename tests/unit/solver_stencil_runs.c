@@ -24,11 +24,14 @@ bool __wrap_solver_stencil_find_runs(struct solver_stencil *stencil, struct solv
 }
 
 /* None, which would take their particles from these loops. */
-bool __wrap_solver_stencil_find_ranks(struct solver_stencil *stencil, struct solver_error *error);
+bool __wrap_solver_stencil_find_ranks(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                                      struct solver_error *error);
 
-bool __wrap_solver_stencil_find_ranks(struct solver_stencil *stencil, struct solver_error *error)
+bool __wrap_solver_stencil_find_ranks(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                                      struct solver_error *error)
 {
     (void)stencil;
+    (void)cloud;
     (void)error;
     return true;
 }
