@@ -58,41 +58,9 @@ static double share(const struct solver_stencil *stencil, const struct solver_cl
     return d == 0.0 || !alike ? 0.0 : within ? C[axis] : C[stencil->dim] * d;
 }
 
-/* Half of the distance between the neighbours of point i; at an end that to the next. */
-static double half_gap(const double *X, uint32_t points, uint32_t i)
-{
-    uint32_t next = i + 1 < points ? i + 1 : i;
-    uint32_t last = i > 0 ? i - 1 : i;
-    return (X[next] - X[last]) / (double)(next - last);
-}
-
-/* p [m], [points]. The sums of two leave one number free, what alternates along the line: it is such that p_i over half
- * the gap is as near to 1 as may be. */
-static void find_rooms(const struct solver_cloud *cloud, size_t axis, double *room)
-{
-    uint32_t points = cloud->points[axis];
-    const double *X = cloud->plane[axis];
-    double off = 0.0;
-    double squares = 0.0;
-    for (uint32_t i = 0; i < points; i++) {
-        if (X == NULL) {
-            room[i] = cloud->spacing;
-            continue;
-        }
-        double gap = half_gap(X, points, i);
-        double sign = i % 2 == 0 ? 1.0 : -1.0;
-        room[i] = i == 0 ? gap : 2.0 * (X[i] - X[i - 1]) - room[i - 1];
-        off += sign * (room[i] - gap) / (gap * gap);
-        squares += 1.0 / (gap * gap);
-    }
-    for (uint32_t i = 0; X != NULL && i < points; i++) {
-        room[i] -= (i % 2 == 0 ? off : -off) / squares;
-    }
-}
-
-/* Slopes of particle a along an axis, of which its point has the room. */
+/* Slopes of particle a along an axis. */
 static void add_slope(struct solver_stencil *stencil, const struct solver_cloud *cloud,
-                      const struct solver_material_constants *constants, size_t a, size_t axis, double room)
+                      const struct solver_material_constants *constants, size_t a, size_t axis)
 {
     size_t dim = (size_t)stencil->dim;
     bool within = is_within(stencil, cloud, constants, a, axis);
@@ -102,8 +70,7 @@ static void add_slope(struct solver_stencil *stencil, const struct solver_cloud 
         sum += share(stencil, cloud, constants, a, ab, axis, within) * d;
     }
     for (size_t ab = stencil->graph.row[a]; sum > 0.0 && ab < stencil->graph.row[a + 1]; ab++) {
-        stencil->least_squares[ab * dim + axis] =
-            share(stencil, cloud, constants, a, ab, axis, within) / sum * (room / cloud->spacing);
+        stencil->least_squares[ab * dim + axis] = share(stencil, cloud, constants, a, ab, axis, within) / sum;
     }
 }
 
@@ -111,19 +78,17 @@ bool solver_stencil_add_lattice_slopes(struct solver_stencil *stencil, const str
                                        const struct solver_material_constants *constants, struct solver_error *error)
 {
     size_t dim = (size_t)stencil->dim;
-    size_t points = (size_t)cloud->points[0] + cloud->points[1] + cloud->points[2];
-    double *room = NULL;
+    if (solver_cloud_graded(cloud)) {
+        return solver_stencil_add_graded_slopes(stencil, cloud, constants, error);
+    }
     if (!solver_alloc((void **)&stencil->least_squares, stencil->pairs * dim, sizeof(double), "slopes of lattices",
-                      error) ||
-        !solver_alloc((void **)&room, points, sizeof *room, "rooms of points", error)) {
+                      error)) {
         return false;
     }
-    for (size_t axis = 0; axis < dim; axis++) {
-        find_rooms(cloud, axis, room);
-        for (size_t a = 0; a < stencil->count; a++) {
-            add_slope(stencil, cloud, constants, a, axis, room[cloud->site[a * dim + axis]]);
+    for (size_t a = 0; a < stencil->count; a++) {
+        for (size_t axis = 0; axis < dim; axis++) {
+            add_slope(stencil, cloud, constants, a, axis);
         }
     }
-    free(room);
     return true;
 }
