@@ -1,20 +1,13 @@
-/* Slopes for the reconstruction on lattices whose spacings change, or on which materials meet.
+/* Slopes for the reconstruction on lattices on which materials meet; graded ones have their own
+ * (stencil_slopes_graded.c).
  *
  * The dissipation takes from the body sum A z [v] . (v_b - v_a) over its pairs, [v] = v_b - v_a - (G_a + G_b) d / 2.
  * That is never negative where the matrix from differences to jumps is symmetric, has no positive entries beside its
- * diagonal, and leaves nothing of a linear field, whose differences all have one sign. On an even lattice of one
- * material, sbp2, it is so. Where d changes it is not symmetric: the slope of a particle goes with unlike distances on
- * either side. Nor is it where that slope takes in what lies across an interface, whose pair does not take it out
- * again. So
- * - d is that of the lattice's own coordinate, the same everywhere, and slopes go with it: p_i dv/dX, with the room p_i
- *   of a point such that p_i + p_i+1 is twice the distance of points i and i + 1. So linear fields still do not jump;
- *   what else jumps is what would on an even lattice, to the same order;
- * - where a row meets another material, its slope along that axis is that between the nearest neighbours of its own
- *   material, and there is none where none is. So it is on short lines too.
- * The rows of sbp4 are wider and have other entries: by their eigenvalues {p,F} then feeds in nothing, and what {p,F,J}
- * feeds in is a fourteenth of what it is with slopes by X, 1e-4 per step where spacings change tenfold along a line of
- * 25. Rows of nearest neighbours alone feed in nothing; but at the ends of lines their jumps are of second order only,
- * and the order of the stress falls from 3.9 to 2.3. */
+ * diagonal, and leaves nothing of a linear field, whose differences all have one sign. On a lattice of one material,
+ * sbp2, it is so. It is not where a slope takes in what lies across an interface, whose pair does not take it out
+ * again. So where a row meets another material, its slope along that axis is that between the nearest neighbours of its
+ * own material, and there is none where none is. So it is on short lines too. The rows of sbp4 are wider and have other
+ * entries at the ends of lines; by their eigenvalues they feed in nothing there. */
 #include "solver/memory.h"
 #include "solver/stencil.h"
 
