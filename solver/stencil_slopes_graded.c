@@ -2,19 +2,24 @@
  *
  * Along a line of one material let D_i = v_i+1 - v_i, g_i the gap of two points and A_i their face. The dissipation
  * takes sum_i A_i D_i [v]_i, [v]_i = D_i - (s_i + s_i+1) / 2 with slopes s per step of the lattice. Slopes are such
- * that A_i [v]_i = (B D)_i,   B = sum_k (c_k / q_k) e_k e_k^T, with e_k the second differences of D / g, and q_k the
- * sum of |their weights| / (A g). With c_k > 0 that is never negative, whatever the faces are, so that by the
- * dissipation of p and of J alike no motion gains energy; and nothing is left of a linear field, as D / g is the same
- * everywhere.
+ * that
+ *     A_i [v]_i = (B D)_i,   B = sum_k (c_k / q_k) e_k e_k^T,   q_k = sum_i |e_ki| / A_i,
+ * e_k the second differences of D / g. With c_k > 0 what is taken is never negative, whatever the faces are, and
+ * nothing is left of a linear field, as D / g is the same everywhere. So neither the dissipation of p nor that of J
+ * gives energy to any motion, as long as normals and impedances are the same along the line: with linear kinematics,
+ * and else where the body is strained alike.
  *
- * Given the jumps, slopes follow from an end of the line to the other. Those of a particle are of its neighbours and
- * the ones beyond them if what alternates along the line has the jump D_i, sum_j (B A^-1)_ij (-1)^j = (-1)^i: c_i + 2
- * c_i-1 + c_i-2 = g_i. That holds at all but the ends, where rows of slopes are longer on one side: there c_i and c_i-1
- * are free. On even lines c = g / 4: slopes are (3/4, -1/8) of differences across one and two steps on either side, and
- * jumps, a sixteenth of fifth differences, are of fifth order, at ends of third.
+ * Given the jumps, slopes follow from one end of the line to the other. Those of a particle are of its neighbours and
+ * the ones beyond them if what alternates along the line has the jump D_i, sum_j (B A^-1)_ij (-1)^j = (-1)^i, which is
+ *     c_i + 2 c_i-1 + c_i-2 = g_i.
+ * That holds at all but the ends, where rows of slopes are longer on one side. On even lines c = g / 4: slopes are
+ * (3/4, -1/8) of differences across one and two steps on either side, and jumps, a sixteenth of fifth differences, are
+ * of fifth order, at ends of third.
  *
- * Lines that are short, or have no pairs across two steps, have first differences in place of second ones, and c_i +
- * c_i-1 = g_i: slopes between nearest neighbours, jumps of third order, at ends of second. */
+ * Lines that are short, or have no pairs across two steps, have first differences in place of second ones, and
+ * c_i + c_i-1 = g_i: slopes between nearest neighbours, jumps of third order, at ends of second. Where spacings change
+ * so fast that no such c are all positive (24 points, 1e4 times as fine at both ends as in the middle; 10 points, 20
+ * times), those c are taken as they are. */
 #include "solver/memory.h"
 #include "solver/stencil.h"
 
