@@ -83,6 +83,9 @@ bool solver_stencil_add_least_squares(struct solver_stencil *stencil, const stru
  * material; `constants` of all particles, NULL where there is one material. */
 bool solver_stencil_add_lattice_slopes(struct solver_stencil *stencil, const struct solver_cloud *cloud,
                                        const struct solver_material_constants *constants, struct solver_error *error);
+/* The same of a graded one. */
+bool solver_stencil_add_graded_slopes(struct solver_stencil *stencil, const struct solver_cloud *cloud,
+                                      const struct solver_material_constants *constants, struct solver_error *error);
 void solver_stencil_arrays(const struct solver_stencil *stencil, struct solver_cost_arrays *arrays);
 /* Sorts rows by axis if every pair lies along one, as on lattices of sbp2 and sbp4; else it leaves all as it is, and so
  * where there are transposed pair vectors or least-squares weights. Neighbours are then ascending along each axis only:

@@ -1,20 +1,13 @@
-/* Slopes for the reconstruction on lattices whose spacings change, or on which materials meet.
+/* Slopes for the reconstruction on lattices on which materials meet; graded ones have their own
+ * (stencil_slopes_graded.c).
  *
  * The dissipation takes from the body sum A z [v] . (v_b - v_a) over its pairs, [v] = v_b - v_a - (G_a + G_b) d / 2.
  * That is never negative where the matrix from differences to jumps is symmetric, has no positive entries beside its
- * diagonal, and leaves nothing of a linear field, whose differences all have one sign. On an even lattice of one
- * material, sbp2, it is so. Where d changes it is not symmetric: the slope of a particle goes with unlike distances on
- * either side. Nor is it where that slope takes in what lies across an interface, whose pair does not take it out
- * again. So
- * - d is that of the lattice's own coordinate, the same everywhere, and slopes go with it: p_i dv/dX, with the room p_i
- *   of a point such that p_i + p_i+1 is twice the distance of points i and i + 1. So linear fields still do not jump;
- *   what else jumps is what would on an even lattice, to the same order;
- * - where a row meets another material, its slope along that axis is that between the nearest neighbours of its own
- *   material, and there is none where none is. So it is on short lines too.
- * The rows of sbp4 are wider and have other entries: by their eigenvalues {p,F} then feeds in nothing, and what {p,F,J}
- * feeds in is a fourteenth of what it is with slopes by X, 1e-4 per step where spacings change tenfold along a line of
- * 25. Rows of nearest neighbours alone feed in nothing; but at the ends of lines their jumps are of second order only,
- * and the order of the stress falls from 3.9 to 2.3. */
+ * diagonal, and leaves nothing of a linear field, whose differences all have one sign. On a lattice of one material,
+ * sbp2, it is so. It is not where a slope takes in what lies across an interface, whose pair does not take it out
+ * again. So where a row meets another material, its slope along that axis is that between the nearest neighbours of its
+ * own material, and there is none where none is. So it is on short lines too. The rows of sbp4 are wider and have other
+ * entries at the ends of lines; by their eigenvalues they feed in nothing there. */
 #include "solver/memory.h"
 #include "solver/stencil.h"
 
@@ -58,41 +51,9 @@ static double share(const struct solver_stencil *stencil, const struct solver_cl
     return d == 0.0 || !alike ? 0.0 : within ? C[axis] : C[stencil->dim] * d;
 }
 
-/* Half of the distance between the neighbours of point i; at an end that to the next. */
-static double half_gap(const double *X, uint32_t points, uint32_t i)
-{
-    uint32_t next = i + 1 < points ? i + 1 : i;
-    uint32_t last = i > 0 ? i - 1 : i;
-    return (X[next] - X[last]) / (double)(next - last);
-}
-
-/* p [m], [points]. The sums of two leave one number free, what alternates along the line: it is such that p_i over half
- * the gap is as near to 1 as may be. */
-static void find_rooms(const struct solver_cloud *cloud, size_t axis, double *room)
-{
-    uint32_t points = cloud->points[axis];
-    const double *X = cloud->plane[axis];
-    double off = 0.0;
-    double squares = 0.0;
-    for (uint32_t i = 0; i < points; i++) {
-        if (X == NULL) {
-            room[i] = cloud->spacing;
-            continue;
-        }
-        double gap = half_gap(X, points, i);
-        double sign = i % 2 == 0 ? 1.0 : -1.0;
-        room[i] = i == 0 ? gap : 2.0 * (X[i] - X[i - 1]) - room[i - 1];
-        off += sign * (room[i] - gap) / (gap * gap);
-        squares += 1.0 / (gap * gap);
-    }
-    for (uint32_t i = 0; X != NULL && i < points; i++) {
-        room[i] -= (i % 2 == 0 ? off : -off) / squares;
-    }
-}
-
-/* Slopes of particle a along an axis, of which its point has the room. */
+/* Slopes of particle a along an axis. */
 static void add_slope(struct solver_stencil *stencil, const struct solver_cloud *cloud,
-                      const struct solver_material_constants *constants, size_t a, size_t axis, double room)
+                      const struct solver_material_constants *constants, size_t a, size_t axis)
 {
     size_t dim = (size_t)stencil->dim;
     bool within = is_within(stencil, cloud, constants, a, axis);
@@ -102,8 +63,7 @@ static void add_slope(struct solver_stencil *stencil, const struct solver_cloud 
         sum += share(stencil, cloud, constants, a, ab, axis, within) * d;
     }
     for (size_t ab = stencil->graph.row[a]; sum > 0.0 && ab < stencil->graph.row[a + 1]; ab++) {
-        stencil->least_squares[ab * dim + axis] =
-            share(stencil, cloud, constants, a, ab, axis, within) / sum * (room / cloud->spacing);
+        stencil->least_squares[ab * dim + axis] = share(stencil, cloud, constants, a, ab, axis, within) / sum;
     }
 }
 
@@ -111,19 +71,17 @@ bool solver_stencil_add_lattice_slopes(struct solver_stencil *stencil, const str
                                        const struct solver_material_constants *constants, struct solver_error *error)
 {
     size_t dim = (size_t)stencil->dim;
-    size_t points = (size_t)cloud->points[0] + cloud->points[1] + cloud->points[2];
-    double *room = NULL;
+    if (solver_cloud_graded(cloud)) {
+        return solver_stencil_add_graded_slopes(stencil, cloud, constants, error);
+    }
     if (!solver_alloc((void **)&stencil->least_squares, stencil->pairs * dim, sizeof(double), "slopes of lattices",
-                      error) ||
-        !solver_alloc((void **)&room, points, sizeof *room, "rooms of points", error)) {
+                      error)) {
         return false;
     }
-    for (size_t axis = 0; axis < dim; axis++) {
-        find_rooms(cloud, axis, room);
-        for (size_t a = 0; a < stencil->count; a++) {
-            add_slope(stencil, cloud, constants, a, axis, room[cloud->site[a * dim + axis]]);
+    for (size_t a = 0; a < stencil->count; a++) {
+        for (size_t axis = 0; axis < dim; axis++) {
+            add_slope(stencil, cloud, constants, a, axis);
         }
     }
-    free(room);
     return true;
 }

@@ -63,7 +63,7 @@ study_gate(jst-long LABELS gate stability SCENE ${quick_scene}
   WORDS --levels 16 --set scheme=jst --set t_end=0.05)
 
 # Graded 10 to 1 along X. Measured with upwind: sbp2 {p,F} 1.59e-3, 3.79e-3, 1.67, 1.87, {p,F,H,J} 1.58e-3, 3.16e-3, 1.75,
-# 1.84; sbp4 {p,F} 3.48e-4, 4.08e-4, 2.79, 4.14, {p,F,H,J} 3.45e-4, 4.27e-4, 2.69, 4.01. With JST: sbp2 {p,F} 2.09e-3,
+# 1.84; sbp4 {p,F} 3.73e-4, 3.75e-4, 2.80, 4.21, {p,F,H,J} 3.75e-4, 4.14e-4, 2.76, 4.05. With JST: sbp2 {p,F} 2.09e-3,
 # 3.04e-3, 1.63, 2.00, {p,F,H,J} 2.06e-3, 2.87e-3, 1.63, 2.00; sbp4 {p,F} 4.01e-4, 5.01e-4, 2.56, 3.99, {p,F,H,J} 4.69e-4,
 # 9.82e-4, 2.47, 2.65.
 set(graded_upwind_sbp2 "gate p <= 1.7e-3" "gate P <= 4e-3" "gate rate p >= 1.6" "gate rate P >= 1.75")

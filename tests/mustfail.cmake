@@ -150,6 +150,7 @@ assay_unit_mutant(ulsph-impedance-of-the-heavier solver_run_composite "the step 
 assay_unit_mutant(ulsph-step-without-meeting solver_run_composite "the step where kernels cross")
 assay_unit_mutant(root-one-term-short solver_roots "so on every path, wide ones with the same bits")
 assay_unit_mutant(slope-across-interface solver_run_composite "energy where materials meet")
+assay_unit_mutant(graded-slopes-of-even-faces solver_slopes_graded "what the dissipation takes")
 assay_unit_mutant(step-without-meeting solver_run_composite
                   "a step for materials that differ ten thousand times")
 assay_unit_mutant(wave-runs-ahead solver_wave "each sweep waits for neighbours")

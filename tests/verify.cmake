@@ -90,6 +90,9 @@ assay_test(cli-bench-of-one-precision LABELS unit COMMAND sh -c
   "'$<TARGET_FILE:assay>' bench swinging-cube --levels 3 --set stencil=sbp2 --set evolved=pF --set precision=single | grep -E ${last_columns}( +-){2}$'")
 assay_test(cli-bench-of-what-fits LABELS unit COMMAND ${cli} 0 "sbp4     pF     refused: " ${assay} bench breathing-cylinder --set precision=double
   --set n=4 --set evolved=pF)
+# Thousands of steps: by an integrator and a CFL number that every stencil holds.
+assay_test(cli-bench-lasts LABELS unit COMMAND ${cli} 0 "sbp4     pFJ           144 " ${assay} bench rotating-plate --levels 11
+  --set stencil=sbp4 --set evolved=pFJ)
 assay_test(cli-bench-of-what-breaks LABELS mustfail UNTRAPPED "runs break down" COMMAND ${cli} 3 "sbp2     pF     broke down: step "
   ${assay} bench swinging-cube --levels 4 --set stencil=sbp2 --set evolved=pF --set cfl=3)
 cli_refuses(bench-of-nothing "single is for antisymmetric stencils" bench swinging-cube --set n=4 --set precision=single
