@@ -55,15 +55,15 @@ X("n", RESOLUTION, AT(n), 0, 0, 0, "", NEEDED, "whole number >= 1", "spacings al
 X("levels", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing whole numbers >= 1",                    \
   "values of n for a convergence study; default: n alone")                                                             \
 X("grading.X", NUMBER, AT(grading[0].ratio), 1, 1e6, 0, "", "1", "number in [1, 1e6]",                              \
-  "largest spacing along X over the smallest; from one face each is the same multiple of the last; for boxes on sbp2, sbp4")      \
+  "largest spacing along X over the smallest, each the same multiple of the last; for boxes on sbp2 or sbp4")      \
 X("grading.fine_X", INDEX, AT(grading[0].fine), 0, 0, 0, "lower upper both middle", "lower",                           \
   "one of lower, upper, both, middle", "where spacings along X are smallest: at a face, at both, or half-way")          \
 X("grading.Y", NUMBER, AT(grading[1].ratio), 1, 1e6, 0, "", "1", "number in [1, 1e6]",                              \
-  "largest spacing along Y over the smallest; from one face each is the same multiple of the last; for boxes on sbp2, sbp4")      \
+  "largest spacing along Y over the smallest, each the same multiple of the last; for boxes on sbp2 or sbp4")      \
 X("grading.fine_Y", INDEX, AT(grading[1].fine), 0, 0, 0, "lower upper both middle", "lower",                           \
   "one of lower, upper, both, middle", "where spacings along Y are smallest: at a face, at both, or half-way")          \
 X("grading.Z", NUMBER, AT(grading[2].ratio), 1, 1e6, 0, "", "1", "number in [1, 1e6]",                              \
-  "largest spacing along Z over the smallest; from one face each is the same multiple of the last; for boxes on sbp2, sbp4")      \
+  "largest spacing along Z over the smallest, each the same multiple of the last; for boxes on sbp2 or sbp4")      \
 X("grading.fine_Z", INDEX, AT(grading[2].fine), 0, 0, 0, "lower upper both middle", "lower",                           \
   "one of lower, upper, both, middle", "where spacings along Z are smallest: at a face, at both, or half-way")          \
 X("perturb", NUMBER, AT(perturb), 0, 0.45, 0, "", "0", "number in [0, 0.45]",                                            \
