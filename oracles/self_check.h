@@ -53,7 +53,9 @@ struct self_check {
     const void *with;                     /* whatever the second evaluation needs */
     const double *instant; /* [instants] the only times at which there is a second evaluation [s]; NULL: any time */
     size_t instants;
-    struct self_check_scale least; /* sizes the fields are known to have where samples may miss them; else zero */
+    /* Sizes the fields are known to have where samples may miss them, or where nothing moves and the law of motion is
+     * an equilibrium, which needs that of the stress; else zero. */
+    struct self_check_scale least;
     const struct self_check_material *material; /* NULL: Hooke's law */
     size_t pieces; /* [0, t_end] is so many equal pieces in each of which v is smooth; 0: one */
     /* Energy that the faces have fed in by t, what of it has been dissipated, and all that went in or out by then,

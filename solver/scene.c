@@ -130,14 +130,17 @@ static void place_of_body(const struct solver_scene *scene, double X[3])
     }
 }
 
-/* Asks each formula once, so that one that fails does so at once. */
+/* Asks each formula once, so that one that fails does so at once. Of a solid no place is known before its cloud is
+ * made: its distance alone speaks of all of the box, and other formulas need not hold beyond the body. */
 static bool try_formulas(const struct solver_scene *scene, struct solver_error *error)
 {
+    enum solver_shape_kind kind = scene->domain.kind;
+    bool known = kind != SOLVER_SHAPE_SOLID && kind != SOLVER_SHAPE_STL;
     for (int f = 0; f < SOLVER_FORMULAS; f++) {
         double X[3], value[9];
         size_t dim = (size_t)scene->dim;
         size_t count = f == SOLVER_INITIAL_F ? dim * dim : f == SOLVER_MATERIAL_AT ? 3 : f == SOLVER_DISTANCE ? 1 : dim;
-        if (!solver_scene_has(scene, (enum solver_formula)f))
+        if (!solver_scene_has(scene, (enum solver_formula)f) || (!known && f != SOLVER_DISTANCE))
             continue;
         place_of_body(scene, X);
         int face = (f - SOLVER_FACE_X0) % SOLVER_FACES;

@@ -129,6 +129,12 @@ static void read_face(lua_State *L, struct solver_scene *scene, const struct sol
     scene->face_until[face] = read_end(L, key->key, given, kind);
     if (isfinite(scene->face_until[face]) && strcmp(scene->loads_from, "oracle") == 0)
         scene_refuse(L, "%s.free_after: loads.from: the oracle drives the face for good", key->key);
+    if (face == SOLVER_SURFACE && kind == SOLVER_TRACTION && solver_shape_in_box(scene->domain.kind) &&
+        strcmp(scene->loads_from, "oracle") == 0)
+        scene_refuse(L,
+                     "%s: loads.from: the exact traction is that on a normal, which of a solid is not known; expected "
+                     "formulas, and value = function(X, Y, Z, t)",
+                     key->key);
     read_formula(L, key->key, given, "value", (enum solver_formula)(SOLVER_FACE_X0 + face), kind, valued, true);
     read_formula(L, key->key, given, "traction", (enum solver_formula)(SOLVER_SHEAR_X0 + face), kind,
                  kind == SOLVER_ROLLER, false);

@@ -102,7 +102,8 @@ X("support", NUMBER, AT(support), 1, 4, 0, "", "2", "number in [1, 4]", "support
 X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares lattice none", OPTIONAL,                 \
   "one of stencil, least-squares, lattice, none",                                                                                \
   "slopes of the linear reconstruction at the Riemann states, and of what jst corrects its Laplacian by; default: "    \
-  "stencil, but for upwind with closed between particles that perturb moved least-squares, and along lines of sbp4 "   \
+  "stencil, but for upwind with closed between particles that were moved, by perturb or onto the surface of a solid or " \
+  "an stl, least-squares, and along lines of sbp4 "   \
   "that are graded, or of sbp2 and sbp4 where materials meet, lattice: in the lattice's own coordinate, whose steps "    \
   "are even, and within one material")                            \
 X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \

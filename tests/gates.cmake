@@ -232,7 +232,7 @@ study_gate(breathing-sphere-fine LABELS gate slow SCENE breathing-sphere
   "gate rate p >= 1.9" "gate P <= 0.051" "gate snapshots_P <= 0.0104" "gate rate snapshots_P >= 2")
 
 # The same as bodies of any shape, a lattice cut by the surface. The disc: period 5.28e-4, 1.95; p 5.93e-3, 2.10; P 6.43e-3,
-# 1.98; after an eighth of a period P 1.23e-3, 1.98. The ball at an eighth: period 1.04e-2, 1.89, p 0.167, 2.01; at a twelfth
+# 1.98; after an eighth of a period P 1.23e-3, 1.98. The ball at an eighth: period 1.07e-2, 1.90, p 0.170, 2.02; at a twelfth
 # 4.85e-3, 1.95, p 7.17e-2, 2.12, P 5.40e-2, 1.54; after an eighth of a period 5.54e-3, 1.86 and 8.90e-3, 2.21.
 study_gate(breathing-cylinder-cut LABELS gate SCENE breathing-cylinder
   BOUNDS "gate figure period <= 5.5e-4" "gate rate figure period >= 1.8" "gate p <= 6.2e-3" "gate rate p >= 1.9"

@@ -78,7 +78,7 @@ bool verify_volume_change(const struct verify_measuring *in, const struct verify
     *value = history->count > 0 && history->incompressible ? 0 : NAN;
     for (size_t i = 0; i < history->count; i++) {
         double change = history->totals[i].volume_change;
-        *value = change <= *value || isnan(*value) ? *value : change; /* a NaN stays */
+        *value = islessequal(change, *value) || isnan(*value) ? *value : change; /* a NaN stays */
     }
     return true;
 }
@@ -123,7 +123,7 @@ bool verify_energy_balance(const struct verify_measuring *in, const struct verif
         const struct solver_totals *first = &history->totals[0], *now = &history->totals[i];
         double there = now->kinetic + now->strain + now->plastic + now->numerical + now->impact - now->external;
         double gap = fabs(there - first->kinetic - first->strain) / supply;
-        *value = gap <= *value || isnan(*value) ? *value : gap; /* a NaN stays */
+        *value = islessequal(gap, *value) || isnan(*value) ? *value : gap; /* a NaN stays */
     }
     return true;
 }

@@ -39,7 +39,8 @@ static const struct verify_measure measures[] = {
      .unit = "m",
      .measure = verify_distance},
     {.name = "energy lost",
-     .help = "share of the energy there was, and of the work of loads, that neither is there at t_end nor flowed",
+     .help = "what of the energy there was, and of the work of loads, neither is there at t_end nor flowed, over the "
+             "former",
      .none_is_exact = true,
      .measure = verify_energy_lost},
     {.name = "energy rise",

@@ -129,7 +129,7 @@ static void collect(const struct verify_study *study, size_t count, struct energ
     for (size_t i = 0; i < EXACT; i++) {
         struct energies *at = &exact[i];
         at->time = first + (last - first) * (double)i / (EXACT - 1);
-        study->truth->kind->energy(study->truth->oracle, at->time, &at->kinetic, &at->strain);
+        verify_truth_energy(study->truth, study->scene, at->time, &at->kinetic, &at->strain);
         at->total = at->kinetic + at->strain;
     }
 }

@@ -69,7 +69,7 @@ void verify_html_quantities(FILE *file, const struct verify_study *study)
 {
     const struct solver_totals *a = &study->first, *b = &study->last;
     double kinetic = NAN, strain = NAN;
-    study->truth->kind->energy(study->truth->oracle, b->time, &kinetic, &strain);
+    verify_truth_energy(study->truth, study->scene, b->time, &kinetic, &strain);
     (void)fprintf(file,
                   "<h2>Conserved quantities at the finest level</h2><table><tr><th></th><th>t = %.6g s</th>"
                   "<th>t = %.6g s</th><th>exact</th><th>unit</th></tr>\n",

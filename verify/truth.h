@@ -31,5 +31,9 @@ bool verify_truth_open(const struct solver_scene *scene, struct verify_truth *tr
 bool verify_truth_tell(const char *name, const struct solver_named *told, size_t count, bool typical,
                        struct verify_truth *truth, struct solver_error *error);
 void verify_truth_free(struct verify_truth *truth);
+/* Exact energies [J] at time t of what the scene models: of a round body cut by planes of symmetry a half for each. NaN
+ * where another body is cut, of which the oracle's share is not known. */
+void verify_truth_energy(const struct verify_truth *truth, const struct solver_scene *scene, double t, double *kinetic,
+                         double *strain);
 
 #endif

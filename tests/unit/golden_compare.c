@@ -5,6 +5,7 @@
 #include "tests/unit/scratch.h"
 #include "tests/unit/unit.h"
 
+#include <float.h>
 #include <unistd.h>
 
 enum { LINES_BEFORE_FIELDS = 1 }; /* the end time */
@@ -283,6 +284,62 @@ static void never_blind(void)
     pair_free(&pair);
 }
 
+/* Nor that of columns whose entries cancel, which are measured by what cancels: sum V |p|, and that at the farthest
+ * particle. */
+static void never_blind_where_momenta_cancel(void)
+{
+    struct solver_record *record = made();
+    const double *p = solver_record_find(record, "momentum")->value, *V = solver_record_find(record, "volume")->value;
+    double *F = solver_record_find(record, "F")->value;
+    double momentum = 0.0, reach = norm(record->X, 3 * record->count, 1);
+    for (size_t a = 0; a < record->count; a++) {
+        momentum += V[a] * sqrt(p[3 * a] * p[3 * a] + p[3 * a + 1] * p[3 * a + 1] + p[3 * a + 2] * p[3 * a + 2]);
+    }
+    for (size_t i = 0; i < 9 * record->count; i++) {
+        const double unit = i % 9 % 4 == 0 ? 1.0 : 0.0;
+        F[i] = unit + 1e-9 * (F[i] - unit);
+    }
+    record->step = 100000000;
+    size_t found = 0;
+    for (size_t c = 0; c < record->history_columns; c++) {
+        bool moments = strstr(record->history_name[c], "_momentum") != NULL;
+        for (size_t row = 0; moments && row < record->history_count; row++) {
+            record->history[row * record->history_columns + c] = 0.0;
+        }
+    }
+    struct golden_report report;
+    struct solver_error error;
+    CU_ASSERT_FATAL(golden_compare(record, record, &report, &error));
+    for (size_t i = 0; i < report.count; i++) {
+        bool angular = strncmp(report.line[i].field, "angular_momentum", 16) == 0;
+        if (angular || strncmp(report.line[i].field, "linear_momentum", 15) == 0) {
+            CU_ASSERT_DOUBLE_EQUAL(report.line[i].bound / (momentum * (angular ? reach : 1.0)), 5e-11, 1e-20);
+            found++;
+        }
+    }
+    CU_ASSERT_EQUAL(found, 6);
+    golden_report_free(&report);
+    solver_record_free(record);
+}
+
+/* Times and places may differ by the last bits of what makes them, and by no more. */
+static void last_bits(void)
+{
+    struct pair pair = pair_make();
+    const double steps = (double)pair.a->step + 1.0, reach = norm(pair.a->X, 3 * pair.a->count, 1);
+    const double was = pair.b->X[4];
+    pair.b->time = pair.a->time * (1.0 + 2.0 * DBL_EPSILON * steps);
+    CU_ASSERT(passes_both_ways(&pair));
+    pair.b->time = pair.a->time * (1.0 + 8.0 * DBL_EPSILON * steps);
+    CU_ASSERT(!passes_both_ways(&pair));
+    pair.b->time = pair.a->time;
+    pair.b->X[4] = was + 4.0 * DBL_EPSILON * reach;
+    CU_ASSERT(passes_both_ways(&pair));
+    pair.b->X[4] = was + 16.0 * DBL_EPSILON * reach;
+    refused(&pair, "Y of particle 1");
+    pair_free(&pair);
+}
+
 static void other_bodies(void)
 {
     struct pair pair = pair_make();
@@ -424,6 +481,8 @@ int main(void)
         {"every column in the tenth digit", every_column},
         {"NaN on both sides", not_a_number_on_both_sides},
         {"never blind", never_blind},
+        {"never blind where momenta cancel", never_blind_where_momenta_cancel},
+        {"the last bits of times and places", last_bits},
         {"other bodies", other_bodies},
         {"other fields", other_fields},
         {"other histories", other_histories},

@@ -59,6 +59,7 @@ static void bounces_off_a_wall(void)
     CU_ASSERT_TRUE(near(figure_of(kind, oracle, "contact time"), 2 / sqrt(E / RHO), 1e-15));
     CU_ASSERT_TRUE(near(figure_of(kind, oracle, "exit velocity 1"), -2, 1e-8));
     CU_ASSERT_TRUE(near(figure_of(kind, oracle, "contact stress"), 2 * sqrt(E * RHO), 1));
+    CU_ASSERT_TRUE(near(figure_of(kind, oracle, "contact velocity"), 0, 1e-8));
     kind->destroy(oracle);
 }
 

@@ -230,6 +230,10 @@ static void small_oscillations_are_linear(void)
     CU_ASSERT_DOUBLE_EQUAL(departure[0] / departure[1], 4, 1e-3);
     CU_ASSERT_DOUBLE_EQUAL(period_with((const struct setting[SETTINGS]){{"velocity", 1e-9}}) / linear, 1, 1e-13);
     CU_ASSERT_DOUBLE_EQUAL(period_with((const struct setting[SETTINGS]){{"velocity", 0}}) / linear, 1, 4 * DBL_EPSILON);
+    /* which is a figure of its own, whatever the amplitude; it goes with the size */
+    struct oracle *o = create_with(the_kind(), (const struct setting[SETTINGS]){{"A", 0.5}, {"B", 1}});
+    CU_ASSERT_DOUBLE_EQUAL(figure_of(the_kind(), o, "period of small oscillations") / (linear / 2), 1, 8 * DBL_EPSILON);
+    the_kind()->destroy(o);
     double ring = period_with((const struct setting[SETTINGS]){{"velocity", 1e-9}, {"B", 1.01}});
     CU_ASSERT_DOUBLE_EQUAL(ring / (PI * 1.005 / sqrt(MU / RHO)), 1, 1e-4);
 }

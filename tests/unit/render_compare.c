@@ -78,6 +78,18 @@ static void shifts_and_thin_lines(void)
     CU_ASSERT_FALSE(compare(stored, two).same);
     CU_ASSERT_FALSE(compare(stored, none).same);
     CU_ASSERT_FALSE(compare(none, stored).same);
+    /* likewise up and down, forth and back */
+    for (int way = 0; way < 4; way++) {
+        for (int by = 1; by <= 2; by++) {
+            struct render_image *line = blank(), *moved = blank();
+            int shift = way % 2 == 0 ? by : -by, x = way < 2 ? shift : 0, y = way < 2 ? 0 : shift;
+            fill(line, 20, 30, way < 2 ? 21 : 50, way < 2 ? 50 : 31, 0);
+            fill(moved, 20 + x, 30 + y, way < 2 ? 21 + x : 50, way < 2 ? 50 : 31 + y, 0);
+            CU_ASSERT_EQUAL(compare(line, moved).same, by == 1);
+            render_image_free(line);
+            render_image_free(moved);
+        }
+    }
     render_image_free(stored);
     render_image_free(one);
     render_image_free(two);

@@ -222,6 +222,26 @@ static struct middle look_at_middle(const char *settings, double (*f)(const doub
     return found;
 }
 
+/* What is added there to the rate of J where J = 1 + f(X) / 100, over that hundredth. */
+static double added_in_middle(const char *settings, double (*f)(const double *X, size_t dim))
+{
+    struct sample sample = start(material, "%s", settings);
+    const struct solver_cloud *cloud = sample.run->cloud;
+    size_t dim = ulsph_dim(&sample), middle = 0;
+    for (size_t a = 0; a < cloud->count; a++) {
+        double off = 0.0;
+        for (size_t i = 0; i < dim; i++) {
+            off = fmax(off, fabs(cloud->X[a * dim + i] - 0.5));
+        }
+        middle = off < 1e-9 ? a : middle;
+        ulsph_field(&sample, "J").value[a] = 1.0 + 0.01 * f(cloud->X + a * dim, dim);
+    }
+    double *added = added_to_J(&sample, material, settings), rate = added[middle] / 0.01;
+    free(added);
+    finish(&sample);
+    return rate;
+}
+
 static double square(const double *X, size_t dim)
 {
     double sum = 0.0;
@@ -240,7 +260,8 @@ static double quartic(const double *X, size_t dim)
     return sum;
 }
 
-/* Eq. 3.13 inside a lattice: Lap |X|^2 = 2 dim with any stencil, and Lap Lap sum X_i^4 = 24 dim by nearest neighbours.
+/* Eq. 3.13 inside a lattice, of v and of J: Lap |X|^2 = 2 dim with any stencil, and Lap Lap sum X_i^4 = 24 dim by
+ * nearest neighbours.
  */
 static void test_printed(void)
 {
@@ -257,10 +278,14 @@ static void test_printed(void)
                 (void)snprintf(settings, sizeof settings, "stencil=%s dim=%zu n=16 jst.kappa2=0.3 jst.kappa4=0",
                                builder->name, dim);
                 middle = look_at_middle(settings, square);
-                CU_ASSERT_DOUBLE_EQUAL(middle.rate / (0.3 * constants.cp * middle.h * 2.0 * d), 1.0, 1e-9);
+                double harmonic = 0.3 * constants.cp * middle.h * 2.0 * d;
+                CU_ASSERT_DOUBLE_EQUAL(middle.rate / harmonic, 1.0, 1e-9);
+                CU_ASSERT_DOUBLE_EQUAL(added_in_middle(settings, square) / harmonic, 1.0, 1e-9);
                 (void)snprintf(settings, sizeof settings, "stencil=%s dim=%zu n=16 jst.kappa4=0.3", builder->name, dim);
                 middle = look_at_middle(settings, quartic);
-                CU_ASSERT_DOUBLE_EQUAL(middle.rate / (-0.3 * constants.cp * pow(middle.h, 3.0) * 24.0 * d), 1.0, 1e-9);
+                double biharmonic = -0.3 * constants.cp * pow(middle.h, 3.0) * 24.0 * d;
+                CU_ASSERT_DOUBLE_EQUAL(middle.rate / biharmonic, 1.0, 1e-9);
+                CU_ASSERT_DOUBLE_EQUAL(added_in_middle(settings, quartic) / biharmonic, 1.0, 1e-8);
             }
         }
     }

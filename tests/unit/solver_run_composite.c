@@ -111,6 +111,22 @@ static void test_contrast(void)
     }
 }
 
+/* That step, of two with one wave speed: half the mean of both sides' moduli over the light particle's density, for
+ * which waves alone have c^2 (meeting.h). A particle on the interface hides them from each other. */
+static void test_meeting_step(void)
+{
+    static const char bar[] = "material = { model = 'neo-hookean', E = 3, nu = 0.3, rho = 2, at = function(X)\n"
+                              "    if X < 0.52 then return 3, 0.3, 2 end return 3 * jump, 0.3, 2 * jump end }\n";
+    static const double jumps[] = {2.0, 3.0, 10.0, 1e4};
+    for (size_t i = 0; i < sizeof jumps / sizeof *jumps; i++) {
+        char text[1024];
+        (void)snprintf(text, sizeof text, "parameters = { jump = %g }\n%s", jumps[i], bar);
+        struct sample sample = start(text, "dim=1 n=16 evolved=pF cfl=0.3");
+        CU_ASSERT_DOUBLE_EQUAL(solver_run_facts(sample.run).shorter, fmax(1.0, sqrt((1.0 + jumps[i]) / 4.0)), 1e-12);
+        finish(&sample);
+    }
+}
+
 /* The same with kernels that reach across: what the stiff side's stress and its impedance do to light particles feeds
  * no energy in. */
 static void test_kernels(void)
@@ -236,6 +252,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"one material said in two ways", test_uniform},
         {"momentum of a composite body", test_momentum},
+        {"the step where materials meet", test_meeting_step},
         {"a step for materials that differ ten thousand times", test_contrast},
         {"the step where kernels cross", test_kernels},
         {"the largest and smallest numbers", test_range},

@@ -1,4 +1,5 @@
 /* Bodies that are driven by a function in place of formulas, and faces that slide on rollers. */
+#include "solver/integrator.h"
 #include "tests/unit/runs.h"
 
 /* All that drives: constants by formula, counted. */
@@ -129,6 +130,25 @@ static void rollers_meet(void)
     finish(&sample);
 }
 
+/* A face that is led until some time has gone as far by then as it was told, whatever steps there are. */
+static void led_to_the_last(void)
+{
+    for (const struct solver_integrator *with = solver_integrators(); with->name != NULL; with++) {
+        struct sample sample = start("faces = { X1 = { kind = 'motion', value = function() return 0.1, 0.2 end,\n"
+                                     "    free_after = 0.3 } }\n",
+                                     "dim=2 n=4 t_end=0.3 integrator=%s", with->name);
+        run_to_end(&sample);
+        struct solver_output output = output_of(&sample);
+        for (size_t a = 0; a < output.cloud->count; a++) {
+            if (output.cloud->X[2 * a] == 1.0) {
+                CU_ASSERT_DOUBLE_EQUAL(output.u[2 * a], 0.03, 1e-14);
+                CU_ASSERT_DOUBLE_EQUAL(output.u[2 * a + 1], 0.06, 1e-14);
+            }
+        }
+        finish(&sample);
+    }
+}
+
 /* A face moved in part: the rest of it is free, the ends of the part are not. */
 static void moved_in_part(void)
 {
@@ -193,6 +213,7 @@ int main(void)
         {"rollers hold the normal alone", rollers_hold_the_normal_alone},
         {"rollers meet others", rollers_meet},
         {"the first of moved faces leads", the_first_of_moved_faces_leads},
+        {"led to the last", led_to_the_last},
         {"a face moved in part", moved_in_part},
     };
     return unit_main("driven runs", tests, sizeof tests / sizeof *tests);

@@ -65,6 +65,21 @@ static void quality(void)
     finish(&box);
 }
 
+/* Formulas are asked where the body is: what they say of a hole, or beyond the surface, does not matter. */
+static void formulas(void)
+{
+    static const char tube[] =
+        "domain = { shape = 'solid', lower = {0, 0}, upper = {2.5, 2.5}, symmetry = { X = 0, Y = 0 },\n"
+        "    distance = function(X, Y) local R = math.sqrt(X * X + Y * Y) return math.max(1 - R, R - 2) end }\n"
+        "reference_length, support = 1, 2.2\n"
+        "local function radial(X, Y) local R = math.sqrt(X * X + Y * Y) return X / R, Y / R end\n"
+        "faces = { surface = { kind = 'traction', value = radial } }\n"
+        "initial = { velocity = radial }\n";
+    struct sample sample = start(tube, "dim=2 stencil=closed n=4");
+    advance_to(&sample, 0.01);
+    finish(&sample);
+}
+
 /* The error of a scene that is refused when it is read, or when its run is made. */
 static struct solver_error refused(const char *text, int dim)
 {
@@ -111,6 +126,10 @@ static void refusals(void)
         {"domain = { shape = 'solid', lower = {0, 0}, upper = {1, 1}, distance = function() return -1 end }\n"
          "perturb = 0.1",
          2, "perturb: expected 0 with a solid"},
+        {"domain = { shape = 'solid', lower = {0, 0}, upper = {1, 1}, distance = function() return -1 end }\n"
+         "oracle, loads = { name = 'breathing-cylinder' }, { from = 'oracle' }\n"
+         "faces = { surface = { kind = 'traction' } }",
+         2, "faces.surface: loads.from: the exact traction is that on a normal"},
         {"domain = { shape = 'solid', lower = {0, 0}, upper = {1, 1.1}, distance = function() return -1 end }", 2,
          "expected a whole number"},
         {"domain = { lower = {0, 0}, upper = {1, 1}, symmetry = { Z = 0 } }", 2,
@@ -138,6 +157,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"planes of symmetry", symmetry},
         {"quality of the cloud", quality},
+        {"formulas within the body", formulas},
         {"refusals", refusals},
     };
     return unit_main("scenes of bodies of any shape", tests, sizeof tests / sizeof *tests);

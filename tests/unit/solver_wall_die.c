@@ -179,6 +179,32 @@ static void led(void)
     finish(&sample);
 }
 
+/* Onto a slope along a plane of symmetry: a particle on both is stopped by the one way that is left to it. */
+static void led_onto_a_slope(void)
+{
+    static const char more[] = "die = { { path = { {-3.9, -5}, {6.1, 5} } } }\n"
+                               "faces = { Y0 = 'symmetric' }\n"
+                               "initial = { velocity = function() return 0.4, 0 end }\n";
+    char scene[1024];
+    (void)snprintf(scene, sizeof scene, "%s%s", elastic, more);
+    struct sample sample = start(scene, "dim=2 n=6 evolved=pF");
+    double behind = 0.0, nearest_to_it = INFINITY;
+    for (int part = 1; part <= 10; part++) {
+        advance_to(&sample, 0.1 * part);
+        struct solver_output output = output_of(&sample);
+        for (size_t a = 0; a < output.cloud->count; a++) {
+            double x = output.cloud->X[2 * a] + output.u[2 * a], y = output.cloud->X[2 * a + 1] + output.u[2 * a + 1];
+            double gap = (1.1 - x + y) / sqrt(2.0);
+            behind = fmax(behind, -gap);
+            nearest_to_it = output.cloud->X[2 * a + 1] == 0.0 ? fmin(nearest_to_it, gap) : nearest_to_it;
+            CU_ASSERT(output.cloud->X[2 * a + 1] > 0.0 || y == 0.0);
+        }
+    }
+    expect_below("way behind the slope", behind, 1e-12);
+    CU_ASSERT(nearest_to_it < 1e-3);
+    finish(&sample);
+}
+
 static void refused(const char *more, const char *overrides, const char *expected)
 {
     struct solver_error error = refusal(more, "dim=2 %s", overrides);
@@ -219,6 +245,7 @@ int main(void)
         {"onto a round corner", onto_a_corner},
         {"between two sides", in_a_channel},
         {"led along a wall", led},
+        {"led onto a slope", led_onto_a_slope},
         {"refusals", refusals},
         {"a scene without walls", nothing_asked},
     };

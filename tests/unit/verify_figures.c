@@ -272,6 +272,83 @@ static void rise_of_the_energy(void)
     CU_ASSERT(verify_energy_rise(&nothing, NULL, &value, &error) && isnan(value));
 }
 
+/* Of a disc of which a half, or a quarter, is modelled the oracle's energies are as much; of a body of any shape nobody
+ * knows how much of it the oracle's is. */
+static void energies_of_the_part(void)
+{
+    double whole[2], part[2];
+    open_scene("breathing-cylinder");
+    for (int planes = 0; planes <= 2; planes++) {
+        scene->symmetric[0] = planes > 0;
+        scene->symmetric[1] = planes > 1;
+        verify_truth_energy(&truth, scene, 1e-3, &part[0], &part[1]);
+        if (planes == 0) {
+            memcpy(whole, part, sizeof whole);
+        }
+        CU_ASSERT(part[0] > 0 && part[0] == whole[0] / (1 << planes) && part[1] == whole[1] / (1 << planes));
+    }
+    scene->domain.kind = SOLVER_SHAPE_SOLID;
+    verify_truth_energy(&truth, scene, 1e-3, &part[0], &part[1]);
+    CU_ASSERT(isnan(part[0]) && isnan(part[1]));
+}
+
+/* Of 10 J there were and 2 J that loads put in, 3 are there, 4 flowed, 2 went into dissipation and 1 into a wall: 2 J
+ * are missing at the end, on the way 3 too many. */
+static void balance_of_energies(void)
+{
+    struct solver_scene kept = {.balance = true}, other = {.path = "free.lua"};
+    struct solver_totals totals[] = {
+        {.kinetic = 6, .strain = 4},
+        {.kinetic = 5, .strain = 4, .numerical = 3, .impact = 2, .plastic = 1, .external = 2},
+        {.kinetic = 2, .strain = 1, .plastic = 4, .numerical = 2, .impact = 1, .external = 2}};
+    const struct solver_history history = {.count = 3, .totals = totals}, none = {.count = 0};
+    const struct verify_measuring in = {.history = &history, .scene = &kept},
+                                  without = {.history = &history, .scene = &other};
+    const struct verify_measuring nothing = {.history = &none, .scene = &kept};
+    double value;
+    CU_ASSERT(verify_energy_balance(&in, NULL, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 0.3, 1e-15);
+    totals[1].impact = -1;
+    CU_ASSERT(verify_energy_balance(&in, NULL, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 0.2, 1e-15);
+    CU_ASSERT(verify_numerical_dissipation(&in, NULL, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 0.2, 1e-15);
+    CU_ASSERT(verify_impact_loss(&in, NULL, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 0.1, 1e-15);
+    CU_ASSERT(verify_energy_balance(&nothing, NULL, &value, &error) && isnan(value));
+    CU_ASSERT(!verify_energy_balance(&without, NULL, &value, &error) &&
+              !verify_impact_loss(&without, NULL, &value, &error));
+    CU_ASSERT(strstr(error.text, "free.lua: figures: this one needs balance = true") != NULL);
+}
+
+/* Of a pressure that is solved for: iterations by all steps, volumes at their worst. */
+static void of_a_pressure(void)
+{
+    struct verify_level run = {.facts = {.steps = 8}};
+    struct solver_totals totals[] = {
+        {.volume_change = 1e-3}, {.volume_change = 3e-3, .iterations = 9}, {.volume_change = 2e-3, .iterations = 20}};
+    struct solver_history history = {.count = 3, .totals = totals, .incompressible = true};
+    const struct verify_measuring in = {.history = &history, .level = &run};
+    double value;
+    CU_ASSERT(verify_iterations(&in, NULL, &value, &error) && value == 2.5);
+    CU_ASSERT(verify_volume_change(&in, NULL, &value, &error) && value == 3e-3);
+    history.incompressible = false;
+    CU_ASSERT(verify_iterations(&in, NULL, &value, &error) && isnan(value));
+    CU_ASSERT(verify_volume_change(&in, NULL, &value, &error) && isnan(value));
+}
+
+/* From the first press to the last, and the velocity of one body of three. */
+static void of_contact(void)
+{
+    const struct solver_history history = {
+        .contact_begin = 0.25, .contact_end = 0.75, .body_velocity = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}};
+    const struct verify_measuring in = {.history = &history};
+    const struct verify_argument second = {.body = 1};
+    double value;
+    CU_ASSERT(verify_contact_time(&in, NULL, &value, &error) && value == 0.5);
+    CU_ASSERT(verify_body_velocity(&in, &second, &value, &error) && value == 4);
+}
+
 /* Two probes that lay 3 m apart along X and have moved to be 5 m apart; of 10 J and 2 J of work, 3 J are there and 4 J
  * flowed. */
 static void distance_and_loss(void)
@@ -339,6 +416,10 @@ int main(void)
         {"behind is not ahead", behind_is_not_ahead},
         {"refusals", refusals},
         {"distance and loss", distance_and_loss},
+        {"energies of the part that is modelled", energies_of_the_part},
+        {"balance of energies", balance_of_energies},
+        {"what a pressure takes", of_a_pressure},
+        {"contact", of_contact},
         {"drift of a probe", drift_of_a_probe},
         {"rise of the energy", rise_of_the_energy},
         {"without an oracle", without_an_oracle},

@@ -46,6 +46,17 @@ static void printed_example(void)
     CU_ASSERT_EQUAL(found.state, VERIFY_ONE_ORDER);
 }
 
+/* Differences far above round-off have an order, however small they are beside the value: 2 within what their own
+ * round-off leaves of it. */
+static void small_differences(void)
+{
+    double h[LEVELS], f[LEVELS];
+    make(1.0, 1e-6, 2.0, h, f);
+    struct verify_extrapolation found = verify_extrapolate(LEVELS, h, f);
+    CU_ASSERT_DOUBLE_EQUAL(found.order, 2.0, 1e-5);
+    CU_ASSERT_DOUBLE_EQUAL(found.limit, 1.0, 1e-14);
+}
+
 static void two_levels(void)
 {
     const double h[] = {0.2, 0.1}, f[] = {1.4, 1.1};
@@ -115,9 +126,13 @@ static void errors(void)
 int main(void)
 {
     static const struct unit_test tests[] = {
-        {"a known limit", known_limit},       {"the printed example", printed_example},
-        {"two levels", two_levels},           {"no limit to be seen", no_limit_to_be_seen},
-        {"not yet settled", not_yet_settled}, {"errors", errors},
+        {"a known limit", known_limit},
+        {"small differences", small_differences},
+        {"the printed example", printed_example},
+        {"two levels", two_levels},
+        {"no limit to be seen", no_limit_to_be_seen},
+        {"not yet settled", not_yet_settled},
+        {"errors", errors},
     };
     return unit_main("grid convergence", tests, sizeof tests / sizeof *tests);
 }

@@ -238,6 +238,10 @@ static void drifts(void)
     totals[2].strain = 26;
     verify_indicators_history(&history, 2, 3, value);
     CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_ENERGY_GAIN], 4.0 / 32, 1e-15);
+    totals[1].external = totals[2].external = -8; /* nor is it a loss that loads took some */
+    totals[2].strain = 8;
+    verify_indicators_history(&history, 2, 3, value);
+    CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_ENERGY_GAIN], 10.0 / 32, 1e-15);
 }
 
 /* What is no number at any time keeps no momentum and no energy. */

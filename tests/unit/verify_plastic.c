@@ -56,6 +56,19 @@ static void section(void)
     CU_ASSERT(isnan(measured(same, from, off)));
 }
 
+static double of_one(double x, double y)
+{
+    return x == 1.0 && y == 0.5 ? 1.0 : 0.0;
+}
+
+/* The mean is by the kernel of eq. 3.4 (004_0c0448173ed5e9bd.txt), of which 16 is at a particle, 1 a spacing away and
+ * nothing two spacings away, as neighbours along x now are. */
+static void weights(void)
+{
+    static const double place[] = {1.0, 0.5};
+    CU_ASSERT_DOUBLE_EQUAL(measured(of_one, place, place), 16.0 / 18.0, 1e-12);
+}
+
 static void largest(void)
 {
     const struct solver_cloud cloud = {.dim = 2, .count = COUNT, .spacing = 1.0 / (SIDE - 1), .X = X};
@@ -91,6 +104,7 @@ int main(void)
 {
     static const struct unit_test tests[] = {
         {"strain across a section", section},
+        {"weights of a section", weights},
         {"largest strain", largest},
         {"work of a ram", ram},
     };
