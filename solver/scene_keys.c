@@ -1,5 +1,6 @@
 /* The keys every scene understands: one row each. */
 #include "solver/scene_internal.h"
+#include "solver/suggest.h"
 
 #include <float.h>
 #include <math.h>
@@ -281,26 +282,6 @@ bool scene_key_admits(const char *path)
     return scene_key_find(face) >= 0;
 }
 
-/* Levenshtein distance between two names, each cut to SOLVER_NAME - 1 bytes. */
-static size_t distance(const char *a, const char *b, size_t b_length)
-{
-    size_t row[SOLVER_NAME];
-    b_length = b_length < SOLVER_NAME ? b_length : SOLVER_NAME - 1;
-    for (size_t j = 0; j <= b_length; j++)
-        row[j] = j;
-    for (size_t i = 0; a[i] && i < SOLVER_NAME - 1; i++) {
-        size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (size_t j = 0; j < b_length; j++) {
-            size_t change = diagonal + (a[i] != b[j]);
-            size_t gap = 1 + (row[j] < row[j + 1] ? row[j] : row[j + 1]);
-            diagonal = row[j + 1];
-            row[j + 1] = change < gap ? change : gap;
-        }
-    }
-    return row[b_length];
-}
-
 /* "; there are material.model, material.E, ..." of a path whose group has keys; "" else. */
 static void list_group(const char *path, char *out, size_t size)
 {
@@ -311,26 +292,39 @@ static void list_group(const char *path, char *out, size_t size)
             used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "; there are ", keys[i].key);
 }
 
+/* The key that is called so within its group, "material.nu" for "nu"; NULL if there is none. */
+static const char *find_within(const char *name)
+{
+    for (int i = 0; keys[i].key; i++) {
+        const char *dot = strchr(keys[i].key, '.');
+        if (dot && !strcmp(dot + 1, name))
+            return keys[i].key;
+    }
+    return NULL;
+}
+
 void scene_key_suggest(const char *path, char *out, size_t size)
 {
-    size_t length = strlen(path), best = length < 2 ? 1 : length < 3 ? 2 : 3; /* farther is no likeness */
-    out[0] = '\0';
-    for (int i = 0; keys[i].key; i++) {
-        const char *key = keys[i].key, *dot = strchr(key, '.');
-        size_t part[] = {strlen(key), dot ? (size_t)(dot - key) : strlen(key)}; /* "material.nu" and "material" */
-        for (int k = 0; k < 2; k++) {
-            size_t d = distance(path, key, part[k]);
-            if (d < best) {
-                best = d;
-                snprintf(out, size, ", did you mean %.*s?", (int)part[k], key);
-            }
-        }
-        if (dot && !strcmp(dot + 1, path) && best > 0) { /* "nu" for "material.nu" */
-            best = 0;
-            snprintf(out, size, ", did you mean %s?", key);
-        }
+    const char *best = find_within(path), *dot = strchr(path, '.');
+    size_t group = dot ? (size_t)(dot - path) + 1 : 0, shown = best ? strlen(best) : 0;
+    bool grouped = false;
+    for (int i = 0; keys[i].key; i++)
+        grouped = grouped || (group && !strncmp(keys[i].key, path, group));
+    struct solver_suggestion nearest = solver_suggest_begin(grouped ? path + group : path);
+    for (int i = 0; keys[i].key && !find_within(path); i++) {
+        const char *key = keys[i].key;
+        size_t whole = strlen(key), root = strcspn(key, ".");
+        if (grouped && strncmp(key, path, group) != 0)
+            continue;
+        size_t from = grouped ? group : 0;
+        bool by_whole = solver_suggest_try(&nearest, key + from, whole - from);
+        bool by_root = !grouped && solver_suggest_try(&nearest, key, root); /* "material" of "material.nu" */
+        best = by_whole || by_root ? key : best;
+        shown = by_root ? root : by_whole ? whole : shown;
     }
-    if (out[0] == '\0')
+    if (best)
+        snprintf(out, size, ", did you mean %.*s?", (int)shown, best);
+    else
         list_group(path, out, size);
 }
 

@@ -1,10 +1,10 @@
 /* assay extremes: a map of where schemes work, measured row by row. */
+#include "solver/suggest.h"
 #include "verify/commands.h"
 #include "verify/extremes.h"
 #include "verify/files.h"
 #include "verify/json.h"
 #include "verify/signals.h"
-#include "verify/suggest.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -81,7 +81,7 @@ static int refuse(const char *word)
         (void)snprintf(list + used, sizeof list - used, "%s%s", count > 0 ? ", " : "", extreme->name);
         names[count++] = extreme->name;
     }
-    const char *meant = verify_suggest(word, names, count);
+    const char *meant = solver_suggest(word, names, count);
     struct solver_error error;
     (void)solver_fail(&error, SOLVER_BAD_INPUT, "there is no extreme \"%.64s\"%s%s; there are %s", word,
                       meant != NULL ? ", did you mean " : "", meant != NULL ? meant : "", list);

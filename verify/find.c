@@ -1,6 +1,6 @@
 #include "verify/find.h"
 
-#include "verify/suggest.h"
+#include "solver/suggest.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -91,7 +91,7 @@ static bool refuse(const char *word, const struct verify_scenes *scenes, struct 
     for (size_t i = 0; i < scenes->count; i++) {
         names[i] = scenes->name[i];
     }
-    const char *meant = verify_suggest(word, names, scenes->count);
+    const char *meant = solver_suggest(word, names, scenes->count);
     if (meant != NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT, "there is no scene \"%.64s\" in %s; did you mean %s?", word,
                            scenes->folder, meant);

@@ -1,7 +1,7 @@
 #include "verify/judge.h"
 
+#include "solver/suggest.h"
 #include "verify/study.h"
-#include "verify/suggest.h"
 
 #include <math.h>
 #include <stdio.h>
