@@ -133,7 +133,8 @@ assay_test(readme-scene LABELS gate COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/readm
   ${CMAKE_SOURCE_DIR}/README.md test-out/readme-scene)
 
 # With one level no order was observed, and gates on orders cannot pass.
-assay_test(one-level LABELS gate mustfail COMMAND ${cli} 1 "nothing was measured"
+assay_test(one-level LABELS gate mustfail COMMAND ${cli} 1
+  "nothing was measured: one level has no order; give two or more, as in --levels 8,16"
   ${assay} verify swinging-cube --levels 8 --out test-out/one-level)
 # A run that breaks down: exit code 3, and the last good state on disk.
 assay_test(breakdown LABELS gate mustfail COMMAND ${cli} 3 "the last good state is in test-out/breakdown/"

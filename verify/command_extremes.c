@@ -28,7 +28,8 @@ static void print(const struct verify_extreme_row *row, bool judged, bool holds)
                  !judged ? ""
                  : holds ? "ok"
                          : "FAIL",
-                 row->what, row->quantity, row->value, fails, row->unit, row->note);
+                 row->what, row->quantity, row->value, fails, row->unit,
+                 row->note[0] == '\0' && !isfinite(row->value) ? "nothing was measured" : row->note);
     (void)fflush(stdout);
 }
 
@@ -59,7 +60,7 @@ static void write_row(FILE *file, bool first, const char *extreme, const struct 
 static void take(void *context, const char *extreme, const struct verify_extreme_row *row)
 {
     struct tally *tally = context;
-    bool judged = isfinite(row->least) || isfinite(row->most) || isnan(row->value);
+    bool judged = isfinite(row->least) || isfinite(row->most) || !isfinite(row->value);
     bool holds = verify_extreme_holds(row);
     print(row, judged, holds);
     if (tally->json != NULL) {

@@ -33,6 +33,7 @@ void verify_study_add(struct verify_study *study, const struct verify_level *lev
     double particle_steps = (double)level->facts.particles * (double)level->facts.steps;
     added->ns_per_particle_step = 1e9 * level->facts.seconds / particle_steps;
     const struct verify_level *before = study->level_count > 0 ? added - 1 : NULL;
+    added->follows = before != NULL;
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
         added->rate[i] = verify_error_has_order(i)
                              ? order_from(before, before != NULL ? before->error[i] : NAN, added, added->error[i])
