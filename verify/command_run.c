@@ -63,7 +63,8 @@ static bool keep(const struct solver_scene *scene, struct solver_run *run, const
         !solver_record_read(record_path, &record, error)) {
         return false;
     }
-    bool drawn = verify_picture_write(picture_path, record, scene->has_view ? &scene->view : NULL, scene->title, error);
+    bool drawn = verify_picture_write(picture_path, record, scene->has_view ? &scene->view : NULL, scene->title,
+                                      record_path, error);
     solver_record_free(record);
     if (drawn) {
         (void)printf("record     %s\npicture    %s\n", record_path, picture_path);
