@@ -140,7 +140,7 @@ assay_test(one-level LABELS gate mustfail COMMAND ${cli} 1
 # more addresses than any limit leaves.
 if(NOT ASSAY_SANITIZE)
   assay_test(no-room-to-draw LABELS mustfail COMMAND ${cli} 2
- "the record is in test-out/no-room/elastic-cable.vtkhdf, for assay render" sh -c
+    "the record is in test-out/no-room/elastic-cable.vtkhdf, for assay render" sh -c
     "rm -rf test-out/no-room && ulimit -v 500000 && exec $<TARGET_FILE:assay> run elastic-cable --out test-out/no-room")
   assay_test(no-room-to-draw-record LABELS gate COMMAND ${assay} render test-out/no-room/elastic-cable.vtkhdf)
   set_tests_properties(no-room-to-draw PROPERTIES FIXTURES_SETUP no-room)
