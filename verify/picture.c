@@ -245,7 +245,7 @@ bool verify_picture_write(const char *path, const struct solver_record *record, 
     struct render_image *image = NULL;
     char why[RENDER_WHY] = "";
     bool done = verify_picture_draw(record, view, title, &image, error) &&
-                (render_png_write(path, image, why) || solver_fail(error, SOLVER_IO, "%s: %s", path, why));
+                (render_png_write(path, image, why) || solver_fail(error, SOLVER_IO, "%s", why));
     render_image_free(image);
     if (!done && kept != NULL) {
         size_t used = strlen(error->text);

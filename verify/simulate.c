@@ -17,7 +17,8 @@ bool verify_record(const struct solver_scene *scene, struct solver_run *run, con
                    const char *command, char *path, struct solver_error *error)
 {
     struct solver_output output;
-    return verify_path_join(path, folder, stem, ".vtkhdf", error) && solver_run_output(run, &output, error) &&
+    return verify_path_join(path, folder, stem, ".vtkhdf", error) && verify_folder_make(folder, error) &&
+           solver_run_output(run, &output, error) &&
            solver_record_write(path, scene, &output, solver_run_history(run), command, ASSAY_VERSION, error);
 }
 

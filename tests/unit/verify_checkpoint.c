@@ -154,10 +154,27 @@ static void without_history(void)
     finish(&sample);
 }
 
+/* A folder of results that is gone when the run is over is made again. */
+static void vanished(void)
+{
+    static struct verify_scenes scenes;
+    char path[VERIFY_PATH], gone[SCRATCH_BELOW];
+    struct sample sample;
+    struct solver_error error = {.text = ""};
+    (void)snprintf(gone, sizeof gone, "%s/gone", folder);
+    CU_ASSERT_FATAL(verify_scenes_list(&scenes, &error));
+    CU_ASSERT_FATAL(verify_path_join(path, scenes.folder, "elastic-cable", ".lua", &error));
+    CU_ASSERT_FATAL(begin(path, NULL, 1, &sample, &error) && run_to_step(sample.scene, sample.run, 1, &error));
+    CU_ASSERT(verify_record(sample.scene, sample.run, gone, "cable", "", path, &error));
+    CU_ASSERT_EQUAL(access(path, R_OK), 0);
+    finish(&sample);
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {{"every scene goes on as if nothing had happened", every_scene},
-                                             {"a checkpoint without history", without_history}};
+                                             {"a checkpoint without history", without_history},
+                                             {"a folder that has vanished", vanished}};
     scratch_folder(folder);
     (void)snprintf(checkpoint_path, sizeof checkpoint_path, "%s/run.checkpoint", folder);
     int result = unit_main("checkpoints of scenes", tests, sizeof tests / sizeof *tests);
