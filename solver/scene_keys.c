@@ -254,12 +254,13 @@ int scene_key_find(const char *path)
 
 enum solver_key_says solver_scene_key_says(const char *path, size_t length)
 {
-    for (; length > 0; length--) { /* "faces.X0.kind", then "faces.X0" */
+    while (length > 0) { /* "faces.X0.kind", then "faces.X0" */
         for (int i = 0; keys[i].key; i++)
             if (strlen(keys[i].key) == length && !strncmp(keys[i].key, path, length))
                 return keys[i].says;
         while (length > 0 && path[length - 1] != '.')
             length--;
+        length -= length > 0; /* the dot */
     }
     return SOLVER_KEY_PROBLEM; /* of a parameter of the scene */
 }
