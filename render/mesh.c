@@ -120,9 +120,25 @@ static size_t list_sides(const struct render_surface *surface, struct edge *side
     return count;
 }
 
-/* Whether the quads that meet in an edge make it one worth drawing. */
-static bool worth_drawing(const struct edge *side, size_t quads, const double (*face)[3], const double eye[3])
+/* Whether all quads that have a normal have the same one, whichever way round they are. */
+static bool lies_flat(const double (*face)[3], size_t quads)
 {
+    size_t first = 0;
+    while (first < quads && render_norm(face[first]) <= 0)
+        first++;
+    for (size_t q = first; q < quads; q++)
+        if (render_norm(face[q]) > 0 && fabs(render_dot(face[q], face[first])) < 1 - 1e-9)
+            return false;
+    return true;
+}
+
+/* Whether the quads that meet in an edge make it one worth drawing. Of a flat body its rim is: where quads lie over one
+ * another, as beside a curved rim that corners of cells were moved to, an even number of them meets within. */
+static bool worth_drawing(const struct edge *side, size_t quads, const double (*face)[3], const double eye[3],
+                          bool flat)
+{
+    if (flat)
+        return quads % 2 == 1;
     if (quads != 2)
         return true;                                               /* a rim, or several sheets meet */
     const double turn = side[0].upward == side[1].upward ? -1 : 1; /* the two are wound against each other */
@@ -138,19 +154,11 @@ static void keep_edges(const struct edge *side, size_t sides, const double (*fac
     for (size_t i = 0, next; i < sides; i = next) {
         for (next = i + 1; next < sides && side[next].low == side[i].low && side[next].high == side[i].high;)
             next++;
-        if (worth_drawing(side + i, next - i, face, eye)) {
+        if (worth_drawing(side + i, next - i, face, eye, mesh->flat)) {
             mesh->edge[mesh->edge_count][0] = side[i].low;
             mesh->edge[mesh->edge_count++][1] = side[i].high;
         }
     }
-}
-
-static bool lies_flat(const double (*face)[3], size_t quads)
-{
-    for (size_t q = 1; q < quads; q++)
-        if (fabs(render_dot(face[q], face[0])) < 1 - 1e-9)
-            return false;
-    return true;
 }
 
 bool render_mesh_build(const struct render_surface *surface, const double eye[3], struct render_mesh *mesh,
@@ -172,8 +180,8 @@ bool render_mesh_build(const struct render_surface *surface, const double eye[3]
             face_normal(surface, q, face[q]);
         list_quads(surface, first, list);
         average_normals(surface, (const double(*)[3])face, first, list, mesh->normal);
-        keep_edges(side, list_sides(surface, side), (const double(*)[3])face, eye, mesh);
         mesh->flat = lies_flat((const double(*)[3])face, quads);
+        keep_edges(side, list_sides(surface, side), (const double(*)[3])face, eye, mesh);
     }
     free(face);
     free(first);

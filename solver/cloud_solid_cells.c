@@ -13,7 +13,14 @@ static bool kept_any(const struct solid_grid *grid, size_t node, uint32_t face)
     return grid->kept[node];
 }
 
-/* The particle that stands for each node: its own, or the nearest to where it would lie on the surface. */
+static bool kept_on_surface(const struct solid_grid *grid, size_t node, uint32_t face)
+{
+    (void)face;
+    return grid->kept[node] && grid->moved[node];
+}
+
+/* The particle that stands for each node: its own, or the nearest to where it would lie on the surface, of those on the
+ * surface if it is outside: else the rim of a picture would have notches. */
 static bool stand_for(const struct solid_grid *grid, size_t node, uint32_t *particle, struct solver_error *error)
 {
     uint32_t at[3];
@@ -29,7 +36,8 @@ static bool stand_for(const struct solid_grid *grid, size_t node, uint32_t *part
     if (grid->distance[node] > 0.0 && !solid_project(grid, 0, X, &found, error)) {
         return false;
     }
-    size_t nearest = solid_nearest(grid, at, X, kept_any, 0, &square);
+    size_t nearest = grid->distance[node] > 0.0 ? solid_nearest(grid, at, X, kept_on_surface, 0, &square) : SIZE_MAX;
+    nearest = nearest != SIZE_MAX ? nearest : solid_nearest(grid, at, X, kept_any, 0, &square);
     *particle = nearest == SIZE_MAX ? SOLID_NONE : grid->particle[nearest];
     return true;
 }

@@ -359,12 +359,20 @@ bool solver_scene_text(const struct solver_scene *scene, const char *path, char 
 /* The words that a plain key can have as its value, in the order of their table; none if it takes no words. */
 size_t solver_scene_words(const char *key, char (*word)[SOLVER_NAME], size_t room);
 
+/* What a key says: what is simulated, how it is solved, or what is watched, judged and shown of it, and by how many
+ * threads. */
+enum solver_key_says { SOLVER_KEY_PROBLEM, SOLVER_KEY_METHOD, SOLVER_KEY_REPORT };
+
 /* The keys every scene understands, for `assay list`; ends with a NULL key. */
 struct solver_scene_key {
     const char *key;
     const char *expects; /* "number > 0 [Pa]", "one of upwind" */
     const char *meaning;
+    enum solver_key_says says;
 };
 const struct solver_scene_key *solver_scene_keys(void);
+/* Of so many bytes of a path, as `--set` spells it: what of no key, a parameter of the scene, says is of the problem.
+ */
+enum solver_key_says solver_scene_key_says(const char *path, size_t length);
 
 #endif

@@ -1,5 +1,6 @@
 /* The keys every scene understands: one row each. */
 #include "solver/scene_internal.h"
+#include "solver/suggest.h"
 
 #include <float.h>
 #include <math.h>
@@ -19,223 +20,224 @@
 #define FORMULA "function(X, Y, Z, t) returning dim numbers"
 
 /* clang-format off */
-/* key, kind, offset, low, high, count, words, preset, expects, meaning */
+/* what it says, key, kind, offset, low, high, count, words, preset, expects, meaning */
 #define KEYS(X)                                                                                                        \
-X("title", TEXT, AT(title), 0, 0, 0, "", NEEDED, "text", "what the scene shows")                                       \
-X("source", TEXT, AT(source), 0, 0, 0, "", OPTIONAL, "text", "paper and section the scene is taken from")              \
-X("parameters", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "table of NAME = number", "numbers of the scene's own")          \
-X("dim", INTEGER, AT(dim), 1, 3, 0, "", NEEDED, "1, 2 or 3", "space dimensions")                                       \
-X("domain.shape", INDEX, AT(domain.kind), 0, 0, 0, "box disc ball cylinder solid stl", "box",                                              \
+X(REPORT, "title", TEXT, AT(title), 0, 0, 0, "", NEEDED, "text", "what the scene shows")                                       \
+X(REPORT, "source", TEXT, AT(source), 0, 0, 0, "", OPTIONAL, "text", "paper and section the scene is taken from")              \
+X(PROBLEM, "parameters", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "table of NAME = number", "numbers of the scene's own")          \
+X(PROBLEM, "dim", INTEGER, AT(dim), 1, 3, 0, "", NEEDED, "1, 2 or 3", "space dimensions")                                       \
+X(PROBLEM, "domain.shape", INDEX, AT(domain.kind), 0, 0, 0, "box disc ball cylinder solid stl", "box",                                              \
   "one of box, disc, ball, cylinder, solid, stl",                                                                          \
   "disc in 2D, ball and cylinder along Z in 3D; solid of any shape by its distance, or by a file of triangles")                                                                       \
-X("domain.lower", NUMBERS, AT(lower), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "lower corner of the box, or of that around a solid")       \
-X("domain.upper", NUMBERS, AT(upper), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "upper corner of the box, or of that around a solid")       \
-X("domain.centre", NUMBERS, AT(domain.centre), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "of a round domain")     \
-X("domain.radius", NUMBER, AT(domain.outer), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a round domain")  \
-X("domain.length", NUMBER, AT(domain.length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a cylinder")     \
-X("domain.distance", FORMULA, SOLVER_DISTANCE, 0, 0, 0, "", OPTIONAL, "function(X, Y, Z) returning one number [m]",       \
+X(PROBLEM, "domain.lower", NUMBERS, AT(lower), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "lower corner of the box, or of that around a solid")       \
+X(PROBLEM, "domain.upper", NUMBERS, AT(upper), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "upper corner of the box, or of that around a solid")       \
+X(PROBLEM, "domain.centre", NUMBERS, AT(domain.centre), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]", "of a round domain")     \
+X(PROBLEM, "domain.radius", NUMBER, AT(domain.outer), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a round domain")  \
+X(PROBLEM, "domain.length", NUMBER, AT(domain.length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]", "of a cylinder")     \
+X(PROBLEM, "domain.distance", FORMULA, SOLVER_DISTANCE, 0, 0, 0, "", OPTIONAL, "function(X, Y, Z) returning one number [m]",       \
   "distance from the surface of a solid, negative inside; where it is so on a side of the box, that is a face")          \
-X("domain.file", TEXT, AT(domain_file), 0, 0, SOLVER_TEXT, "", OPTIONAL, "path, relative to the scene's folder",           \
+X(PROBLEM, "domain.file", TEXT, AT(domain_file), 0, 0, SOLVER_TEXT, "", OPTIONAL, "path, relative to the scene's folder",           \
   "closed surface of triangles, a binary or ASCII STL file")                                                            \
-X("domain.scale", NUMBER, AT(domain_scale), ABOVE_ZERO, DBL_MAX, 0, "", "1", "number > 0 [m]", "of the lengths in that file") \
-X("domain.symmetry", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ X = place, ... }",                      \
+X(PROBLEM, "domain.scale", NUMBER, AT(domain_scale), ABOVE_ZERO, DBL_MAX, 0, "", "1", "number > 0 [m]", "of the lengths in that file") \
+X(PROBLEM, "domain.symmetry", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ X = place, ... }",                      \
   "planes of symmetry [m], through the centre of a round domain: the part above is modelled, X0, Y0 or Z0 symmetric")                  \
-X("bodies", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                       \
+X(PROBLEM, "bodies", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                       \
   "list of up to 16 { shape = \"box\", lower = { ... }, upper = { ... } } or { shape = \"ring\", centre = {x, y}, inner = r, outer = R }", \
   "several bodies, in place of domain")                                                                                \
-X("lattice", INDEX, AT(lattice), 0, 0, 0, "nodes centres", "nodes", "one of nodes, centres",                           \
+X(METHOD, "lattice", INDEX, AT(lattice), 0, 0, 0, "nodes centres", "nodes", "one of nodes, centres",                           \
   "particles on the corners of cells, so on faces, or in the centres of cells")                                        \
-X("wall", INTEGER, AT(wall), 1, 16, 0, "", "3", "whole number in [1, 16]",                                             \
+X(METHOD, "wall", INTEGER, AT(wall), 1, 16, 0, "", "3", "whole number in [1, 16]",                                             \
   "layers of particles beyond a face that is clamped or moved, where lattice = \"centres\"")                           \
-X("wall_motion", INDEX, AT(wall_motion), 0, 0, 0, "rigid mirrored", "rigid", "one of rigid, mirrored",                  \
+X(METHOD, "wall_motion", INDEX, AT(wall_motion), 0, 0, 0, "rigid mirrored", "rigid", "one of rigid, mirrored",                  \
   "particles of walls move as the face, or against those of the body, so that the face has its velocity")             \
-X("reference_length", NUMBER, AT(reference_length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",            \
+X(PROBLEM, "reference_length", NUMBER, AT(reference_length), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",            \
   "spacing = reference_length / n; default: the first edge, or the radius")                                                           \
-X("n", RESOLUTION, AT(n), 0, 0, 0, "", NEEDED, "whole number >= 1", "spacings along the reference length")             \
-X("levels", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing whole numbers >= 1",                    \
+X(METHOD, "n", RESOLUTION, AT(n), 0, 0, 0, "", NEEDED, "whole number >= 1", "spacings along the reference length")             \
+X(REPORT, "levels", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing whole numbers >= 1",                    \
   "values of n for a convergence study; default: n alone")                                                             \
-X("grading.X", NUMBER, AT(grading[0].ratio), 1, 1e6, 0, "", "1", "number in [1, 1e6]",                              \
+X(METHOD, "grading.X", NUMBER, AT(grading[0].ratio), 1, 1e6, 0, "", "1", "number in [1, 1e6]",                              \
   "largest spacing along X over the smallest, each the same multiple of the last; for boxes on sbp2 or sbp4")      \
-X("grading.fine_X", INDEX, AT(grading[0].fine), 0, 0, 0, "lower upper both middle", "lower",                           \
+X(METHOD, "grading.fine_X", INDEX, AT(grading[0].fine), 0, 0, 0, "lower upper both middle", "lower",                           \
   "one of lower, upper, both, middle", "where spacings along X are smallest: at a face, at both, or half-way")          \
-X("grading.Y", NUMBER, AT(grading[1].ratio), 1, 1e6, 0, "", "1", "number in [1, 1e6]",                              \
+X(METHOD, "grading.Y", NUMBER, AT(grading[1].ratio), 1, 1e6, 0, "", "1", "number in [1, 1e6]",                              \
   "largest spacing along Y over the smallest, each the same multiple of the last; for boxes on sbp2 or sbp4")      \
-X("grading.fine_Y", INDEX, AT(grading[1].fine), 0, 0, 0, "lower upper both middle", "lower",                           \
+X(METHOD, "grading.fine_Y", INDEX, AT(grading[1].fine), 0, 0, 0, "lower upper both middle", "lower",                           \
   "one of lower, upper, both, middle", "where spacings along Y are smallest: at a face, at both, or half-way")          \
-X("grading.Z", NUMBER, AT(grading[2].ratio), 1, 1e6, 0, "", "1", "number in [1, 1e6]",                              \
+X(METHOD, "grading.Z", NUMBER, AT(grading[2].ratio), 1, 1e6, 0, "", "1", "number in [1, 1e6]",                              \
   "largest spacing along Z over the smallest, each the same multiple of the last; for boxes on sbp2 or sbp4")      \
-X("grading.fine_Z", INDEX, AT(grading[2].fine), 0, 0, 0, "lower upper both middle", "lower",                           \
+X(METHOD, "grading.fine_Z", INDEX, AT(grading[2].fine), 0, 0, 0, "lower upper both middle", "lower",                           \
   "one of lower, upper, both, middle", "where spacings along Z are smallest: at a face, at both, or half-way")          \
-X("perturb", NUMBER, AT(perturb), 0, 0.45, 0, "", "0", "number in [0, 0.45]",                                            \
+X(METHOD, "perturb", NUMBER, AT(perturb), 0, 0.45, 0, "", "0", "number in [0, 0.45]",                                            \
   "random shift of interior particles, as a fraction of the spacing")                                                  \
-X("seed", SEED, AT(seed), 0, 0, 0, "", "1", "whole number >= 0", "of the random shift")                                \
-X("material.model", WORD, AT(material_model), 0, 0, 0, "linear-elastic neo-hookean neo-hookean-polyconvex hencky", NEEDED,                    \
+X(METHOD, "seed", SEED, AT(seed), 0, 0, 0, "", "1", "whole number >= 0", "of the random shift")                                \
+X(PROBLEM, "material.model", WORD, AT(material_model), 0, 0, 0, "linear-elastic neo-hookean neo-hookean-polyconvex hencky", NEEDED,                    \
   "one of linear-elastic, neo-hookean, neo-hookean-polyconvex, hencky", "constitutive model")                          \
-X("material.E", NUMBER, AT(E), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [Pa]", "Young's modulus")               \
-X("material.nu", NUMBER, AT(nu), -1 + DBL_EPSILON / 2, 0.5, 0, "", NEEDED, "number in (-1, 0.5]", "Poisson's ratio")   \
-X("material.rho", NUMBER, AT(rho), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [kg/m^3]",                          \
+X(PROBLEM, "material.E", NUMBER, AT(E), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [Pa]", "Young's modulus")               \
+X(PROBLEM, "material.nu", NUMBER, AT(nu), -1 + DBL_EPSILON / 2, 0.5, 0, "", NEEDED, "number in (-1, 0.5]", "Poisson's ratio")   \
+X(PROBLEM, "material.rho", NUMBER, AT(rho), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [kg/m^3]",                          \
   "density in the reference configuration")                                                                            \
-X("material.at", FORMULA, SOLVER_MATERIAL_AT, 0, 0, 0, "", OPTIONAL, "function(X, Y, Z) returning E, nu, rho",            \
+X(PROBLEM, "material.at", FORMULA, SOLVER_MATERIAL_AT, 0, 0, 0, "", OPTIONAL, "function(X, Y, Z) returning E, nu, rho",            \
   "constants of a composite body; they count in place of material.E, nu and rho, which are given all the same")        \
-X("material.yield_stress", NUMBER, AT(hardening.yield), 0, DBL_MAX, 0, "", "0", "number >= 0 [Pa]",                      \
+X(PROBLEM, "material.yield_stress", NUMBER, AT(hardening.yield), 0, DBL_MAX, 0, "", "0", "number >= 0 [Pa]",                      \
   "yield stress (von Mises) of the virgin material; 0: it is elastic")                                                 \
-X("material.law", INDEX, AT(hardening.law), 0, 0, 0, "linear saturation power", "linear",                              \
+X(PROBLEM, "material.law", INDEX, AT(hardening.law), 0, 0, 0, "linear saturation power", "linear",                              \
   "one of linear, saturation, power",                                                                                  \
   "yield stress over plastic strain e: Y + H e, that + (Ys - Y)(1 - exp(-d e)), or Y (1 + e/e0)^m")                    \
-X("material.hardening", NUMBER, AT(hardening.modulus), 0, DBL_MAX, 0, "", "0", "number >= 0 [Pa]",                      \
+X(PROBLEM, "material.hardening", NUMBER, AT(hardening.modulus), 0, DBL_MAX, 0, "", "0", "number >= 0 [Pa]",                      \
   "H: rise of the yield stress per plastic strain")                                                                    \
-X("material.saturation", NUMBER, AT(hardening.saturation), 0, DBL_MAX, 0, "", "0", "number >= yield_stress [Pa]",      \
+X(PROBLEM, "material.saturation", NUMBER, AT(hardening.saturation), 0, DBL_MAX, 0, "", "0", "number >= yield_stress [Pa]",      \
   "Ys: the yield stress, without H e, that a law of saturation ends at")                                               \
-X("material.saturation_rate", NUMBER, AT(hardening.rate), 0, DBL_MAX, 0, "", "0", "number > 0 with saturation",        \
+X(PROBLEM, "material.saturation_rate", NUMBER, AT(hardening.rate), 0, DBL_MAX, 0, "", "0", "number > 0 with saturation",        \
   "d: how fast it gets there")                                                                                         \
-X("material.hardening_strain", NUMBER, AT(hardening.strain), 0, DBL_MAX, 0, "", "0", "number > 0 with power",          \
+X(PROBLEM, "material.hardening_strain", NUMBER, AT(hardening.strain), 0, DBL_MAX, 0, "", "0", "number > 0 with power",          \
   "e0 of the power law")                                                                                               \
-X("material.hardening_exponent", NUMBER, AT(hardening.exponent), 0, 1, 0, "", "0", "number in (0, 1] with power",       \
+X(PROBLEM, "material.hardening_exponent", NUMBER, AT(hardening.exponent), 0, 1, 0, "", "0", "number in (0, 1] with power",       \
   "m of the power law")                                                                                                \
-X("scheme", WORD, AT(scheme), 0, 0, 0, "upwind jst ulsph | efg adaptle", "upwind", "one of upwind, jst, ulsph",                    \
+X(METHOD, "scheme", WORD, AT(scheme), 0, 0, 0, "upwind jst ulsph | efg adaptle", "upwind", "one of upwind, jst, ulsph",                    \
   "semi-discrete right-hand side")                                                                                     \
-X("evolved", INDEX, AT(evolved), 0, 0, 0, "pF pFJ pFHJ", "pFHJ", "one of pF, pFJ, pFHJ",                               \
+X(METHOD, "evolved", INDEX, AT(evolved), 0, 0, 0, "pF pFJ pFHJ", "pFHJ", "one of pF, pFJ, pFHJ",                               \
   "geometric measures with an equation of their own")                                                                  \
-X("stencil", WORD, AT(stencil), 0, 0, 0, "sph closed sbp2 sbp4", "sbp4", "one of sph, closed, sbp2, sbp4",             \
+X(METHOD, "stencil", WORD, AT(stencil), 0, 0, 0, "sph closed sbp2 sbp4", "sbp4", "one of sph, closed, sbp2, sbp4",             \
   "how discrete gradients are built")                                                                                  \
-X("support", NUMBER, AT(support), 1, 4, 0, "", "2", "number in [1, 4]", "support radius / spacing")                    \
-X("reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares lattice none", OPTIONAL,                 \
+X(METHOD, "support", NUMBER, AT(support), 1, 4, 0, "", "2", "number in [1, 4]", "support radius / spacing")                    \
+X(METHOD, "reconstruction", WORD, AT(reconstruction), 0, 0, 0, "stencil least-squares lattice none", OPTIONAL,                 \
   "one of stencil, least-squares, lattice, none",                                                                                \
   "slopes of the linear reconstruction at the Riemann states, and of what jst corrects its Laplacian by; default: "    \
   "stencil, but for upwind with closed between particles that were moved, by perturb or onto the surface of a solid or " \
   "an stl, least-squares, and along lines of sbp4 "   \
   "that are graded, or of sbp2 and sbp4 where materials meet, lattice: in the lattice's own coordinate, whose steps "    \
   "are even, and within one material")                            \
-X("volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \
+X(METHOD, "volume_flux", WORD, AT(volume_flux), 0, 0, 0, "pressure stress", "pressure", "one of pressure, stress",               \
   "jump that drives the upwind dissipation of J: the volumetric stress, or the whole stress as printed")               \
-X("angular_momentum", WORD, AT(angular_momentum), 0, 0, 0, "free projected", "free", "one of free, projected",           \
+X(METHOD, "angular_momentum", WORD, AT(angular_momentum), 0, 0, 0, "free projected", "free", "one of free, projected",           \
   "as the scheme leaves it, or kept by the least change of the forces within the body (Appendix B)")                   \
-X("incompressible.solver", INDEX, AT(incompressible.solver), 0, 0, 0, "none poisson pseudo-time", "none",               \
+X(METHOD, "incompressible.solver", INDEX, AT(incompressible.solver), 0, 0, 0, "none poisson pseudo-time", "none",               \
   "one of none, poisson, pseudo-time",                                                                                 \
   "pressure in place of J, for material.nu up to 0.5: by conjugate gradients, or by iteration in pseudo-time as printed") \
-X("incompressible.tolerance", NUMBER, AT(incompressible.tolerance), 1e-14, 1e-2, 0, "", "1e-8",                        \
+X(METHOD, "incompressible.tolerance", NUMBER, AT(incompressible.tolerance), 1e-14, 1e-2, 0, "", "1e-8",                        \
   "number in [1e-14, 0.01]", "share of a particle's volume that a stage's pressure may leave unbalanced")              \
-X("incompressible.iterations", INTEGER, AT(incompressible.iterations), 1, 1000000, 0, "", "10000",                     \
+X(METHOD, "incompressible.iterations", INTEGER, AT(incompressible.iterations), 1, 1000000, 0, "", "10000",                     \
   "whole number in [1, 1000000]", "most iterations per stage; more are an error")                                      \
-X("incompressible.modulus", NUMBER, AT(incompressible.modulus), 0.1, 1e4, 0, "", "5", "number in [0.1, 1e4]",          \
+X(METHOD, "incompressible.modulus", NUMBER, AT(incompressible.modulus), 0.1, 1e4, 0, "", "5", "number in [0.1, 1e4]",          \
   "fictitious bulk modulus of the predictor over the shear modulus: it gives the time step")                           \
-X("incompressible.dissipation", NUMBER, AT(incompressible.dissipation), 0, 1, 0, "", "0.003", "number in [0, 1]",          \
+X(METHOD, "incompressible.dissipation", NUMBER, AT(incompressible.dissipation), 0, 1, 0, "", "0.003", "number in [0, 1]",          \
   "of the jumps of the pressure, over that of the flux as printed: it changes volumes; 0: none")                       \
-X("incompressible.restore", NUMBER, AT(incompressible.restore), 0, 1, 0, "", "0.1", "number in [0, 1]",                  \
+X(METHOD, "incompressible.restore", NUMBER, AT(incompressible.restore), 0, 1, 0, "", "0.1", "number in [0, 1]",                  \
   "share of the volume that a particle has strayed from its pressure's which is given back within a step; 0: as printed") \
-X("incompressible.gamma", NUMBER, AT(incompressible.gamma), 1e-3, 1e3, 0, "", "1", "number in [0.001, 1000]",          \
+X(METHOD, "incompressible.gamma", NUMBER, AT(incompressible.gamma), 1e-3, 1e3, 0, "", "1", "number in [0.001, 1000]",          \
   "artificial compressibility of the pseudo-time over the fictitious bulk modulus")                                    \
-X("incompressible.alpha", NUMBER, AT(incompressible.alpha), 0, 1, 0, "", "0", "number in [0, 1]",                      \
+X(METHOD, "incompressible.alpha", NUMBER, AT(incompressible.alpha), 0, 1, 0, "", "0", "number in [0, 1]",                      \
   "Laplacian that speeds the pseudo-time up; it smooths the pressure, and changes volumes; 0: none")                   \
-X("jst.kappa2", NUMBER, AT(jst.kappa2), 0, 10, 0, "", "0", "number in [0, 10]", "harmonic dissipation; 0: none")          \
-X("jst.kappa4", NUMBER, AT(jst.kappa4), 0, 10, 0, "", "0.015625", "number in [0, 10]", "biharmonic dissipation; 0: none")    \
-X("jst.kappa4_plastic", NUMBER, AT(jst.kappa4_plastic), 0, 10, 0, "", OPTIONAL, "number in [0, 10]",                     \
+X(METHOD, "jst.kappa2", NUMBER, AT(jst.kappa2), 0, 10, 0, "", "0", "number in [0, 10]", "harmonic dissipation; 0: none")          \
+X(METHOD, "jst.kappa4", NUMBER, AT(jst.kappa4), 0, 10, 0, "", "0.015625", "number in [0, 10]", "biharmonic dissipation; 0: none")    \
+X(METHOD, "jst.kappa4_plastic", NUMBER, AT(jst.kappa4_plastic), 0, 10, 0, "", OPTIONAL, "number in [0, 10]",                     \
   "what kappa4 changes to, linearly, while a particle's plastic strain grows to plastic_at; default: it is constant")  \
-X("jst.plastic_at", NUMBER, AT(jst.plastic_at), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0",                    \
+X(METHOD, "jst.plastic_at", NUMBER, AT(jst.plastic_at), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0",                    \
   "plastic strain from which on kappa4 is kappa4_plastic; default 0.5")                                                \
-X("ulsph.gradient", INDEX, AT(ulsph.gradient), 0, 0, 0, "corrected plain", "corrected", "one of corrected, plain",       \
+X(METHOD, "ulsph.gradient", INDEX, AT(ulsph.gradient), 0, 0, 0, "corrected plain", "corrected", "one of corrected, plain",       \
   "gradients with the corrective matrix L, or of the kernel alone")                                                    \
-X("ulsph.cells", INDEX, AT(ulsph.cells), 0, 0, 0, "whole cut", "whole", "one of whole, cut",                             \
+X(METHOD, "ulsph.cells", INDEX, AT(ulsph.cells), 0, 0, 0, "whole cut", "whole", "one of whole, cut",                             \
   "weight in kernel sums of a particle on a face: a whole cell, or its part within the body")                          \
-X("ulsph.dissipation", INDEX, AT(ulsph.dissipation), 0, 0, 0, "riemann viscosity none", "riemann",                     \
+X(METHOD, "ulsph.dissipation", INDEX, AT(ulsph.dissipation), 0, 0, 0, "riemann viscosity none", "riemann",                     \
   "one of riemann, viscosity, none", "second-order Riemann term (R) or artificial viscosity (AV)")                     \
-X("ulsph.viscosity", NUMBER, AT(ulsph.viscosity), 0, 10, 0, "", "1", "number in [0, 10]",                              \
+X(METHOD, "ulsph.viscosity", NUMBER, AT(ulsph.viscosity), 0, 10, 0, "", "1", "number in [0, 10]",                              \
   "alpha of the artificial viscosity")                                                                                 \
-X("ulsph.tension", INDEX, AT(ulsph.tension), 0, 0, 0, "control stress none", "control",                                \
+X(METHOD, "ulsph.tension", INDEX, AT(ulsph.tension), 0, 0, 0, "control stress none", "control",                                \
   "one of control, stress, none", "tensile instability control (TIC) or artificial stress (AS)")                       \
-X("ulsph.repulsion", INDEX, AT(ulsph.repulsion), 0, 0, 0, "printed excess", "printed", "one of printed, excess",       \
+X(METHOD, "ulsph.repulsion", INDEX, AT(ulsph.repulsion), 0, 0, 0, "printed excess", "printed", "one of printed, excess",       \
   "the artificial stress as printed, or what of it exceeds its value at the initial spacing")                          \
-X("ulsph.stress_factor", NUMBER, AT(ulsph.stress_factor), 0, 10, 0, "", "0.15", "number in [0, 10]",                   \
+X(METHOD, "ulsph.stress_factor", NUMBER, AT(ulsph.stress_factor), 0, 10, 0, "", "0.15", "number in [0, 10]",                   \
   "epsilon of the artificial stress")                                                                                  \
-X("ulsph.stress_exponent", NUMBER, AT(ulsph.stress_exponent), 0, 32, 0, "", "8", "number in [0, 32]",                  \
+X(METHOD, "ulsph.stress_exponent", NUMBER, AT(ulsph.stress_exponent), 0, 32, 0, "", "8", "number in [0, 32]",                  \
   "exponent n of the artificial stress")                                                                               \
-X("ulsph.xsph", NUMBER, AT(ulsph.xsph), 0, 1, 0, "", "0.5", "number in [0, 1]",                                        \
+X(METHOD, "ulsph.xsph", NUMBER, AT(ulsph.xsph), 0, 1, 0, "", "0.5", "number in [0, 1]",                                        \
   "smoothing of the velocity that carries particles; 0: none")                                                         \
-X("ulsph.delta", NUMBER, AT(ulsph.delta), 0, 1, 0, "", "0.002", "number in [0, 1]", "density diffusion; 0: none")      \
-X("contact.law", INDEX, AT(contact_law), 0, 0, 0, "none printed predicted", "none",                                  \
+X(METHOD, "ulsph.delta", NUMBER, AT(ulsph.delta), 0, 1, 0, "", "0.002", "number in [0, 1]", "density diffusion; 0: none")      \
+X(PROBLEM, "contact.law", INDEX, AT(contact_law), 0, 0, 0, "none printed predicted", "none",                                  \
   "one of none, printed, predicted",                                                                                   \
   "forces between bodies that stop the approach of particles: the present one, or that at the end of the step")        \
-X("contact.distance", NUMBER, AT(contact_distance), 0, DBL_MAX, 0, "", "0", "number >= 0 [m]",                         \
+X(PROBLEM, "contact.distance", NUMBER, AT(contact_distance), 0, DBL_MAX, 0, "", "0", "number >= 0 [m]",                         \
   "between particles in touch; 0: the spacing")                                                                        \
-X("rigid_wall.point", NUMBERS, AT(rigid_wall.point), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]",                 \
+X(PROBLEM, "rigid_wall.point", NUMBERS, AT(rigid_wall.point), 0, 0, 0, "", OPTIONAL, "list of dim numbers [m]",                 \
   "on a plane wall without friction, which the body does not pass")                                                    \
-X("rigid_wall.normal", NUMBERS, AT(rigid_wall.normal), 0, 0, 0, "", OPTIONAL, "list of dim numbers",                   \
+X(PROBLEM, "rigid_wall.normal", NUMBERS, AT(rigid_wall.normal), 0, 0, 0, "", OPTIONAL, "list of dim numbers",                   \
   "of that wall, from it to the body")                                                                                 \
-X("die", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                          \
+X(PROBLEM, "die", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL,                                                                          \
   "list of up to 4 { path = { {x, y}, ... }, fillets = { r, ... } } [m]",                                              \
   "rigid walls without friction in the plane, each a path with the body to its left; one fillet for each corner")      \
-X("integrator", WORD, AT(integrator), 0, 0, 0, "euler tvd-rk2 ssp-rk3 rk4", "rk4",                     \
+X(METHOD, "integrator", WORD, AT(integrator), 0, 0, 0, "euler tvd-rk2 ssp-rk3 rk4", "rk4",                     \
   "one of euler, tvd-rk2, ssp-rk3, rk4",                                                                               \
   "time integrator")                                                                                                   \
-X("cfl", NUMBER, AT(cfl), ABOVE_ZERO, 10, 0, "", "0.8", "number in (0, 10]", "Courant-Friedrichs-Lewy number")         \
-X("t_end", NUMBER, AT(t_end), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [s]", "end of the run")                  \
-X("golden.t_end", NUMBER, AT(golden_t_end), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [s]",                    \
+X(METHOD, "cfl", NUMBER, AT(cfl), ABOVE_ZERO, 10, 0, "", "0.8", "number in (0, 10]", "Courant-Friedrichs-Lewy number")         \
+X(PROBLEM, "t_end", NUMBER, AT(t_end), ABOVE_ZERO, DBL_MAX, 0, "", NEEDED, "number > 0 [s]", "end of the run")                  \
+X(REPORT, "golden.t_end", NUMBER, AT(golden_t_end), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [s]",                    \
   "end of the run whose record and picture are stored, at the coarsest of levels; default t_end")                      \
-X("snapshots", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing numbers in (0, t_end] [s]",          \
+X(REPORT, "snapshots", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 increasing numbers in (0, t_end] [s]",          \
   "times at which a study compares the state with the oracle, besides t_end")                                          \
-X("history", INTEGER, AT(history), 1, 100000, 0, "", "200", "whole number in [1, 100000]",                             \
+X(REPORT, "history", INTEGER, AT(history), 1, 100000, 0, "", "200", "whole number in [1, 100000]",                             \
   "rows of the time history over t_end, if there are as many steps")                                                   \
-X("balance", FLAG, AT(balance), 0, 0, 0, "", "false", "true or false",                                                 \
+X(REPORT, "balance", FLAG, AT(balance), 0, 0, 0, "", "false", "true or false",                                                 \
   "the energy that numerical dissipation and a rigid wall take is measured, and a column of the history")              \
-X("precision", WORD, AT(precision), 0, 0, 0, "double mixed single", "double", "one of double, mixed, single",                    \
+X(METHOD, "precision", WORD, AT(precision), 0, 0, 0, "double mixed single", "double", "one of double, mixed, single",                    \
   "mixed keeps pair vectors in single precision, and sums in double; single all fields, and sums of pairs (upwind)")  \
-X("threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
+X(REPORT, "threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
   "threads; 0: as many as there are cores and the work is worth")                                                     \
-X("initial.from", WORD, AT(initial_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",             \
+X(PROBLEM, "initial.from", WORD, AT(initial_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",             \
   "whether formulas or the exact solution give the initial state")                                                     \
-X("loads.from", WORD, AT(loads_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",                 \
+X(PROBLEM, "loads.from", WORD, AT(loads_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",                 \
   "whether formulas or the exact solution give the body force, and what faces prescribe")                              \
-X("initial.displacement", FORMULA, SOLVER_INITIAL_DISPLACEMENT, 0, 0, 0, "", OPTIONAL, FORMULA,                        \
+X(PROBLEM, "initial.displacement", FORMULA, SOLVER_INITIAL_DISPLACEMENT, 0, 0, 0, "", OPTIONAL, FORMULA,                        \
   "initial displacement [m]; default 0")                                                                               \
-X("initial.velocity", FORMULA, SOLVER_INITIAL_VELOCITY, 0, 0, 0, "", OPTIONAL, FORMULA,                                \
+X(PROBLEM, "initial.velocity", FORMULA, SOLVER_INITIAL_VELOCITY, 0, 0, 0, "", OPTIONAL, FORMULA,                                \
   "initial velocity [m/s]; default 0")                                                                                 \
-X("initial.F", FORMULA, SOLVER_INITIAL_F, 0, 0, 0, "", OPTIONAL,                                                       \
+X(PROBLEM, "initial.F", FORMULA, SOLVER_INITIAL_F, 0, 0, 0, "", OPTIONAL,                                                       \
   "function(X, Y, Z, t) returning dim * dim numbers, row by row",                                                      \
   "initial deformation gradient; default: the stencil's gradient of the initial position")                             \
-X("body_force", FORMULA, SOLVER_BODY_FORCE, 0, 0, 0, "", OPTIONAL, FORMULA,                                            \
+X(PROBLEM, "body_force", FORMULA, SOLVER_BODY_FORCE, 0, 0, 0, "", OPTIONAL, FORMULA,                                            \
   "force per unit reference volume [N/m^3]")                                                                           \
-X("faces.X0", FACE, 0, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lower X face; default free")               \
-X("faces.X1", FACE, 1, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper X face; default free")               \
-X("faces.Y0", FACE, 2, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lower Y face; default free")               \
-X("faces.Y1", FACE, 3, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper Y face; default free")               \
-X("faces.Z0", FACE, 4, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lower Z face; default free")               \
-X("faces.Z1", FACE, 5, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper Z face; default free")               \
-X("faces.surface", FACE, 6, 0, 0, 0, "", OPTIONAL, SURFACE_KINDS, "condition on a round domain's curved face; default free") \
-X("probes", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 { name = text, X = { ... } }",                     \
+X(PROBLEM, "faces.X0", FACE, 0, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lower X face; default free")               \
+X(PROBLEM, "faces.X1", FACE, 1, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper X face; default free")               \
+X(PROBLEM, "faces.Y0", FACE, 2, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lower Y face; default free")               \
+X(PROBLEM, "faces.Y1", FACE, 3, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper Y face; default free")               \
+X(PROBLEM, "faces.Z0", FACE, 4, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the lower Z face; default free")               \
+X(PROBLEM, "faces.Z1", FACE, 5, 0, 0, 0, "", OPTIONAL, FACE_KINDS, "condition on the upper Z face; default free")               \
+X(PROBLEM, "faces.surface", FACE, 6, 0, 0, 0, "", OPTIONAL, SURFACE_KINDS, "condition on a round domain's curved face; default free") \
+X(REPORT, "probes", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 16 { name = text, X = { ... } }",                     \
   "places whose motion is recorded over time")                                                                         \
-X("probe_scale", NUMBER, AT(probe_scale), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",                      \
+X(REPORT, "probe_scale", NUMBER, AT(probe_scale), ABOVE_ZERO, DBL_MAX, 0, "", OPTIONAL, "number > 0 [m]",                      \
   "what the error probes_nrmse is relative to")                                                                        \
-X("figures", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ [NAME] = { measure = text, OPTION = ..., ... }, ... }",          \
+X(REPORT, "figures", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ [NAME] = { measure = text, OPTION = ..., ... }, ... }",          \
   "numbers that a study measures and compares with those of the oracle; see assay list measures")                      \
-X("oracle", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ name = text }; any number beside it is told to the oracle",       \
+X(REPORT, "oracle", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ name = text }; any number beside it is told to the oracle",       \
   "exact solution that the scene answers to")                                                                          \
-X("published", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ source = text, { n = ..., NAME = error, ... }, ... }",         \
+X(REPORT, "published", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ source = text, { n = ..., NAME = error, ... }, ... }",         \
   "the figures printed in the paper")                                                                                  \
-X("gates", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 32 { when = { KEY = value, ... }, NAME = bound, ... }",\
+X(REPORT, "gates", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "list of up to 32 { when = { KEY = value, ... }, NAME = bound, ... }",\
   "largest errors and, as [\"rate NAME\"], smallest observed orders; [\"figure NAME\"] for those of figures, [\"indicator NAME\"]")                                                  \
-X("beside", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ KEY = value, ... }",                                              \
+X(REPORT, "beside", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ KEY = value, ... }",                                              \
   "another configuration of the same scene, whose probes a study shows and compares with this one's")                   \
-X("trade", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ [NAME] = { KEY = value, ... }, ... }",                                  \
+X(REPORT, "trade", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ [NAME] = { KEY = value, ... }, ... }",                                  \
   "other ways to set the same problem up, less of it by symmetry for instance, which assay trade varies")              \
-X("view.field", TEXT, AT(view.field), 0, 0, SOLVER_NAME, "", NEEDED, "name of a scalar of the record",                 \
+X(REPORT, "view.field", TEXT, AT(view.field), 0, 0, SOLVER_NAME, "", NEEDED, "name of a scalar of the record",                 \
   "what the picture shows")                                                                                            \
-X("view.range", NUMBERS, AT(view.range), 0, 0, 2, "", NEEDED, "list of 2 numbers, increasing", "colour range")         \
-X("view.bands", INTEGER, AT(view.bands), 2, 64, 0, "", "12", "whole number in [2, 64]", "filled contour bands")        \
-X("view.direction", NUMBERS, AT(view.direction), 0, 0, 3, "", "{1,0.8,0.6}", "list of 3 numbers",                      \
+X(REPORT, "view.range", NUMBERS, AT(view.range), 0, 0, 2, "", NEEDED, "list of 2 numbers, increasing", "colour range")         \
+X(REPORT, "view.bands", INTEGER, AT(view.bands), 2, 64, 0, "", "12", "whole number in [2, 64]", "filled contour bands")        \
+X(REPORT, "view.direction", NUMBERS, AT(view.direction), 0, 0, 3, "", "{1,0.8,0.6}", "list of 3 numbers",                      \
   "from the body towards the eye; default {1, 0.8, 0.6}, in a plane {0, 0, 1}")                                                                                     \
-X("view.up", NUMBERS, AT(view.up), 0, 0, 3, "", "{0,0,1}", "list of 3 numbers", "what points up in the picture; default {0, 0, 1}, in a plane {0, 1, 0}")       \
-X("view.magnify", NUMBER, AT(view.magnify), 0, DBL_MAX, 0, "", "1", "number >= 0",                                     \
+X(REPORT, "view.up", NUMBERS, AT(view.up), 0, 0, 3, "", "{0,0,1}", "list of 3 numbers", "what points up in the picture; default {0, 0, 1}, in a plane {0, 1, 0}")       \
+X(REPORT, "view.magnify", NUMBER, AT(view.magnify), 0, DBL_MAX, 0, "", "1", "number >= 0",                                     \
   "displacement shown / displacement")                                                                                 \
-X("view.size", INTEGERS, AT(view.size), 64, 8192, 2, "", "{1200,900}", "list of 2 whole numbers in [64, 8192]",        \
+X(REPORT, "view.size", INTEGERS, AT(view.size), 64, 8192, 2, "", "{1200,900}", "list of 2 whole numbers in [64, 8192]",        \
   "pixels")                                                                                                            \
-X("view.frame", NUMBERS, AT(view.frame), 0, 0, 6, "", OPTIONAL, "{x0, x1, y0, y1, z0, z1} [m]",                        \
+X(REPORT, "view.frame", NUMBERS, AT(view.frame), 0, 0, 6, "", OPTIONAL, "{x0, x1, y0, y1, z0, z1} [m]",                        \
   "what must stay in sight; default: the body as it was, with room around it")
 /* clang-format on */
 
-#define SAY(key, kind, offset, low, high, count, words, preset, expects, meaning) {key, expects, meaning},
-#define RULE(key, kind, offset, low, high, count, words, preset, expects, meaning)                                     \
+#define SAY(says, key, kind, offset, low, high, count, words, preset, expects, meaning)                                \
+    {key, expects, meaning, SOLVER_KEY_##says},
+#define RULE(says, key, kind, offset, low, high, count, words, preset, expects, meaning)                               \
     {SCENE_##kind, offset, low, high, count, words, preset},
-static const struct solver_scene_key keys[] = {KEYS(SAY){NULL, NULL, NULL}};
+static const struct solver_scene_key keys[] = {KEYS(SAY){NULL, NULL, NULL, SOLVER_KEY_PROBLEM}};
 static const struct scene_key rules[] = {KEYS(RULE)};
 
 const struct solver_scene_key *solver_scene_keys(void)
@@ -249,6 +251,19 @@ int scene_key_find(const char *path)
         if (!strcmp(keys[i].key, path))
             return i;
     return -1;
+}
+
+enum solver_key_says solver_scene_key_says(const char *path, size_t length)
+{
+    while (length > 0) { /* "faces.X0.kind", then "faces.X0" */
+        for (int i = 0; keys[i].key; i++)
+            if (strlen(keys[i].key) == length && !strncmp(keys[i].key, path, length))
+                return keys[i].says;
+        while (length > 0 && path[length - 1] != '.')
+            length--;
+        length -= length > 0; /* the dot */
+    }
+    return SOLVER_KEY_PROBLEM; /* of a parameter of the scene */
 }
 
 const struct scene_key *scene_key_rule(int index)
@@ -282,26 +297,6 @@ bool scene_key_admits(const char *path)
     return scene_key_find(face) >= 0;
 }
 
-/* Levenshtein distance between two names, each cut to SOLVER_NAME - 1 bytes. */
-static size_t distance(const char *a, const char *b, size_t b_length)
-{
-    size_t row[SOLVER_NAME];
-    b_length = b_length < SOLVER_NAME ? b_length : SOLVER_NAME - 1;
-    for (size_t j = 0; j <= b_length; j++)
-        row[j] = j;
-    for (size_t i = 0; a[i] && i < SOLVER_NAME - 1; i++) {
-        size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (size_t j = 0; j < b_length; j++) {
-            size_t change = diagonal + (a[i] != b[j]);
-            size_t gap = 1 + (row[j] < row[j + 1] ? row[j] : row[j + 1]);
-            diagonal = row[j + 1];
-            row[j + 1] = change < gap ? change : gap;
-        }
-    }
-    return row[b_length];
-}
-
 /* "; there are material.model, material.E, ..." of a path whose group has keys; "" else. */
 static void list_group(const char *path, char *out, size_t size)
 {
@@ -312,26 +307,39 @@ static void list_group(const char *path, char *out, size_t size)
             used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "; there are ", keys[i].key);
 }
 
+/* The key that is called so within its group, "material.nu" for "nu"; NULL if there is none. */
+static const char *find_within(const char *name)
+{
+    for (int i = 0; keys[i].key; i++) {
+        const char *dot = strchr(keys[i].key, '.');
+        if (dot && !strcmp(dot + 1, name))
+            return keys[i].key;
+    }
+    return NULL;
+}
+
 void scene_key_suggest(const char *path, char *out, size_t size)
 {
-    size_t length = strlen(path), best = length < 2 ? 1 : length < 3 ? 2 : 3; /* farther is no likeness */
-    out[0] = '\0';
-    for (int i = 0; keys[i].key; i++) {
-        const char *key = keys[i].key, *dot = strchr(key, '.');
-        size_t part[] = {strlen(key), dot ? (size_t)(dot - key) : strlen(key)}; /* "material.nu" and "material" */
-        for (int k = 0; k < 2; k++) {
-            size_t d = distance(path, key, part[k]);
-            if (d < best) {
-                best = d;
-                snprintf(out, size, ", did you mean %.*s?", (int)part[k], key);
-            }
-        }
-        if (dot && !strcmp(dot + 1, path) && best > 0) { /* "nu" for "material.nu" */
-            best = 0;
-            snprintf(out, size, ", did you mean %s?", key);
-        }
+    const char *best = find_within(path), *dot = strchr(path, '.');
+    size_t group = dot ? (size_t)(dot - path) + 1 : 0, shown = best ? strlen(best) : 0;
+    bool grouped = false;
+    for (int i = 0; keys[i].key; i++)
+        grouped = grouped || (group && !strncmp(keys[i].key, path, group));
+    struct solver_suggestion nearest = solver_suggest_begin(grouped ? path + group : path);
+    for (int i = 0; keys[i].key && !find_within(path); i++) {
+        const char *key = keys[i].key;
+        size_t whole = strlen(key), root = strcspn(key, ".");
+        if (grouped && strncmp(key, path, group) != 0)
+            continue;
+        size_t from = grouped ? group : 0;
+        bool by_whole = solver_suggest_try(&nearest, key + from, whole - from);
+        bool by_root = !grouped && solver_suggest_try(&nearest, key, root); /* "material" of "material.nu" */
+        best = by_whole || by_root ? key : best;
+        shown = by_root ? root : by_whole ? whole : shown;
     }
-    if (out[0] == '\0')
+    if (best)
+        snprintf(out, size, ", did you mean %.*s?", (int)shown, best);
+    else
         list_group(path, out, size);
 }
 

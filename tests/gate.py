@@ -35,6 +35,8 @@ def main():
         finest = study["levels"][-1]
         value = (study["rates"][name] if rate else finest["figures"][name[7:]]["error"] if name.startswith("figure ")
                  else finest["indicators"][name[10:]] if name.startswith("indicator ") else finest["errors"][name])
+        if value is None:
+            sys.exit(f"FAIL: {text}: nothing was measured")
         if not (value <= bound if op == "<=" else value >= bound):
             sys.exit(f"FAIL: {text}: measured {value:.4g}")
         own = {"name": (rate or "") + name, "value": value, "bound": bound, "op": op, "pass": True}

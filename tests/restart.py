@@ -183,6 +183,23 @@ def burst(place):
         check_whole(place.at(name) / CHECKPOINT)
 
 
+def over(place):
+    """A signal that comes while the record of a run that is over is written: the record is there, and no less of it."""
+    place.scene(SHORT)
+    words = ["run", "swinging-cube", "--set", "n=30", "--set", "t_end=1e-6", "--set", "snapshots={}", "--out", "out"]
+    place.run("straight", words)
+    size = (place.at("straight") / "out/swinging-cube.vtkhdf").stat().st_size
+    folder = place.at("over") / "out"
+    process = place.start("over", words)
+    wait_for(lambda: list(folder.glob("swinging-cube.vtkhdf.partial-*")), process)
+    process.send_signal(signal.SIGTERM)
+    place.end(process, -signal.SIGTERM)
+    if sorted(os.listdir(folder))[:1] != ["swinging-cube.vtkhdf"] or list(folder.glob("*.vtkhdf.partial-*")):
+        sys.exit(f"FAIL: the record is not there: {sorted(os.listdir(folder))}")
+    if (folder / "swinging-cube.vtkhdf").stat().st_size != size:
+        sys.exit("FAIL: the record is not whole")
+
+
 def unasked(place):
     """Without --checkpoint a run is kept when it has gone on for five seconds, and not before."""
     place.scene(ENDLESS)
@@ -273,7 +290,7 @@ def study(place):
         sys.exit(f"FAIL: there is {os.listdir(place.at('study') / 'out')}")
 
 
-TESTS = {test.__name__: test for test in (killed, stopped, twice, burst, unasked, full, refused, study)}
+TESTS = {test.__name__: test for test in (killed, stopped, twice, burst, over, unasked, full, refused, study)}
 
 if __name__ == "__main__":
     TESTS[sys.argv[1]](Place(sys.argv[2], sys.argv[3]))

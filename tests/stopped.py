@@ -57,7 +57,7 @@ def cost(place):
     process = place.start("cost", ["cost", "swinging-cube", "--set", "n=8", "--set", "balance=true", "--json", "cost.json"])
     wait_for(lambda: watches(process), process)
     out, err = stop(place, process, signal.SIGTERM, "cost: stopped by SIGTERM; what is printed and written was measured before")
-    demand("stopping after this step, or when the run is set up" in err, err)  # what it waits for may be either
+    demand("stopping after this step, or when the run is set up or its record written" in err, err)  # what it waits for may be either
     part = read(place.at("cost") / "cost.json")
     demand(part["stopped_by"] == "SIGTERM" and len(part["without"]) < 3, f"{part['stopped_by']}, {part['without']}")
     demand(part["ns_per_particle_step"] > 0 and part["bytes_per_particle"] > 0 and part["history"]["ns_per_row"] is None,

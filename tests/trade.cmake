@@ -60,6 +60,7 @@ endfunction()
 trade_refuses(of-no-oracle "answers to no oracle" trade rotating-plate)
 trade_refuses(vary-what-is-no-method "--vary material.E: no key that says how a problem is solved" trade plastic-wave
               --vary material.E=1,2)
+trade_refuses(vary-the-luck "--vary seed: no key that says how a problem is solved" trade plastic-wave --vary seed=1,2)
 trade_refuses(vary-suggests "did you mean stencil?" trade plastic-wave --vary stencl=sbp2)
 trade_refuses(vary-no-number "--vary cfl=abc: expected a number" trade plastic-wave --vary cfl=0.3,abc)
 trade_refuses(vary-no-such-word "did you mean sbp" trade plastic-wave --vary stencil=sbp2,sbp3)

@@ -21,8 +21,12 @@ bool verify_checkpoints_begin(struct verify_checkpoints *checkpoints, const stru
 {
     double begun = now();
     char *file = from == NULL ? realpath(scene->path, NULL) : NULL;
-    *checkpoints = (struct verify_checkpoints){
-        .scene = scene, .command = command, .resumed = from != NULL, .begun = begun, .written = begun};
+    *checkpoints = (struct verify_checkpoints){.scene = scene,
+                                               .command = command,
+                                               .folder = folder,
+                                               .resumed = from != NULL,
+                                               .begun = begun,
+                                               .written = begun};
     (void)snprintf(checkpoints->file, sizeof checkpoints->file, "%s",
                    from != NULL   ? solver_checkpoint_about(from)->scene_file
                    : file != NULL ? file
@@ -56,7 +60,8 @@ bool verify_checkpoints_write(struct verify_checkpoints *checkpoints, const stru
         .every_seconds = checkpoints->every.seconds,
         .every_steps = checkpoints->every.steps,
     };
-    bool done = solver_checkpoint_write(checkpoints->path, run, &about, error);
+    bool done = verify_folder_make(checkpoints->folder, error) &&
+                solver_checkpoint_write(checkpoints->path, run, &about, error);
     checkpoints->written = now();
     if (done) {
         checkpoints->there = true;

@@ -14,6 +14,7 @@
 struct verify_checkpoints {
     const struct solver_scene *scene;
     const char *command;    /* that the run began with */
+    const char *folder;     /* made again if it vanishes while the run goes on */
     char file[VERIFY_PATH]; /* the scene's, from the root, so that a change is noticed from any folder */
     struct verify_pace every;
     bool resumed; /* the run went on from a checkpoint */

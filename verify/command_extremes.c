@@ -1,10 +1,10 @@
 /* assay extremes: a map of where schemes work, measured row by row. */
+#include "solver/suggest.h"
 #include "verify/commands.h"
 #include "verify/extremes.h"
 #include "verify/files.h"
 #include "verify/json.h"
 #include "verify/signals.h"
-#include "verify/suggest.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -28,7 +28,8 @@ static void print(const struct verify_extreme_row *row, bool judged, bool holds)
                  !judged ? ""
                  : holds ? "ok"
                          : "FAIL",
-                 row->what, row->quantity, row->value, fails, row->unit, row->note);
+                 row->what, row->quantity, row->value, fails, row->unit,
+                 row->note[0] == '\0' && !isfinite(row->value) ? "nothing was measured" : row->note);
     (void)fflush(stdout);
 }
 
@@ -59,7 +60,7 @@ static void write_row(FILE *file, bool first, const char *extreme, const struct 
 static void take(void *context, const char *extreme, const struct verify_extreme_row *row)
 {
     struct tally *tally = context;
-    bool judged = isfinite(row->least) || isfinite(row->most) || isnan(row->value);
+    bool judged = isfinite(row->least) || isfinite(row->most) || !isfinite(row->value);
     bool holds = verify_extreme_holds(row);
     print(row, judged, holds);
     if (tally->json != NULL) {
@@ -81,7 +82,7 @@ static int refuse(const char *word)
         (void)snprintf(list + used, sizeof list - used, "%s%s", count > 0 ? ", " : "", extreme->name);
         names[count++] = extreme->name;
     }
-    const char *meant = verify_suggest(word, names, count);
+    const char *meant = solver_suggest(word, names, count);
     struct solver_error error;
     (void)solver_fail(&error, SOLVER_BAD_INPUT, "there is no extreme \"%.64s\"%s%s; there are %s", word,
                       meant != NULL ? ", did you mean " : "", meant != NULL ? meant : "", list);

@@ -23,7 +23,7 @@ static bool make(const struct verify_options *options, struct solver_scene *scen
     }
     bool done = verify_record(scene, run, folder, stem, options->line, record_path, error) &&
                 solver_record_read(record_path, &record, error) &&
-                verify_picture_write(picture, record, scene->has_view ? &scene->view : NULL, scene->title, error);
+                verify_picture_write(picture, record, scene->has_view ? &scene->view : NULL, scene->title, NULL, error);
     solver_record_free(record);
     solver_run_free(run);
     return done;

@@ -3,11 +3,11 @@
 #include "solver/material.h"
 #include "solver/scheme.h"
 #include "solver/stencil.h"
+#include "solver/suggest.h"
 #include "verify/commands.h"
 #include "verify/find.h"
 #include "verify/manufactured.h"
 #include "verify/measures.h"
-#include "verify/suggest.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -198,7 +198,7 @@ int verify_command_list(const struct verify_options *options)
         }
     }
     if (!found) {
-        const char *meant = verify_suggest(wanted, names, SUBJECTS);
+        const char *meant = solver_suggest(wanted, names, SUBJECTS);
         (void)solver_fail(
             &error, SOLVER_BAD_INPUT,
             "list %s: there are scenes, oracles, schemes, materials, stencils, integrators, measures and keys%s%s%s",

@@ -58,11 +58,14 @@ static void print_head(const char *family)
     (void)printf("|\n");
 }
 
-/* "1.98/1.9 ", with a ! where the claim does not hold. */
+/* "1.98/1.9 ", with a ! where the claim does not hold, as where there is no order. */
 static void print_order(const struct verify_mms_case *which, const struct verify_mms_result *result, int i)
 {
     char text[32];
-    if (!isfinite(result->order[i]) || result->finest[i] < VERIFY_MMS_ROUND_OFF) {
+    bool none = !isfinite(result->order[i]);
+    if (result->asked[i] && none) {
+        (void)snprintf(text, sizeof text, "-/%.3g!", which->asked[i]);
+    } else if (none || result->finest[i] < VERIFY_MMS_ROUND_OFF) {
         (void)snprintf(text, sizeof text, "-");
     } else if (result->asked[i]) {
         (void)snprintf(text, sizeof text, "%.2f/%.3g%s", result->order[i], which->asked[i],

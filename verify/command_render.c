@@ -70,7 +70,8 @@ static bool render(const struct solver_record *record, const struct verify_optio
         return false;
     }
     const struct solver_view *view = scene != NULL && scene->has_view ? &scene->view : NULL;
-    bool done = verify_picture_write(path, record, view, scene != NULL ? scene->title : record->scene_name, error);
+    bool done =
+        verify_picture_write(path, record, view, scene != NULL ? scene->title : record->scene_name, NULL, error);
     solver_scene_free(scene);
     if (done) {
         (void)printf("picture    %s\n", path);

@@ -4,6 +4,7 @@
 #include "verify/picture.h"
 #include "verify/report.h"
 #include "verify/restart.h"
+#include "verify/signals.h"
 #include "verify/simulate.h"
 #include "verify/terminal.h"
 #include "verify/trade_pick.h"
@@ -51,19 +52,41 @@ static void print_quality(const struct solver_cloud *cloud)
                  quality->widest);
 }
 
-/* Record and picture of a finished run. The picture is drawn from the record as read back, which proves that it can
- * be. */
-static bool keep(const struct solver_scene *scene, struct solver_run *run, const char *folder, const char *line,
+/* A scene, where its results go, and the command line that its record holds. */
+struct work {
+    struct solver_scene *scene;
+    struct verify_keeping keeping;
+    char folder[VERIFY_PATH];
+    char line[VERIFY_COMMAND_LINE];
+};
+
+/* Record of a finished run, at `path`. Who asks the program to end meanwhile is heard once it is written: what has been
+ * computed is not lost. */
+static bool keep(const struct work *work, struct solver_run *run, char path[VERIFY_PATH], struct solver_error *error)
+{
+    const struct solver_scene *scene = work->scene;
+    verify_signals_watch();
+    bool kept = verify_record(scene, run, work->folder, scene->name, work->line, path, error);
+    verify_signals_leave();
+    int number = verify_signals_asked();
+    return kept && (number == 0 ||
+                    solver_fail(error, SOLVER_STOPPED,
+                                "%s: stopped by %s when the run was over; its record is in %.400s, for assay render",
+                                scene->name, verify_signals_name(number), path));
+}
+
+/* The picture is drawn from the record as read back, which proves that it can be. */
+static bool draw(const struct solver_scene *scene, const char *folder, const char *record_path,
                  struct solver_error *error)
 {
-    char record_path[VERIFY_PATH], picture_path[VERIFY_PATH];
+    char picture_path[VERIFY_PATH];
     struct solver_record *record = NULL;
-    if (!verify_record(scene, run, folder, scene->name, line, record_path, error) ||
-        !verify_path_join(picture_path, folder, scene->name, ".png", error) ||
+    if (!verify_path_join(picture_path, folder, scene->name, ".png", error) ||
         !solver_record_read(record_path, &record, error)) {
         return false;
     }
-    bool drawn = verify_picture_write(picture_path, record, scene->has_view ? &scene->view : NULL, scene->title, error);
+    bool drawn = verify_picture_write(picture_path, record, scene->has_view ? &scene->view : NULL, scene->title,
+                                      record_path, error);
     solver_record_free(record);
     if (drawn) {
         (void)printf("record     %s\npicture    %s\n", record_path, picture_path);
@@ -84,14 +107,6 @@ static bool judge(const struct solver_scene *scene, struct solver_run *run, cons
     print_quality(output.cloud);
     return true;
 }
-
-/* A scene, where its results go, and the command line that its record holds. */
-struct work {
-    struct solver_scene *scene;
-    struct verify_keeping keeping;
-    char folder[VERIFY_PATH];
-    char line[VERIFY_COMMAND_LINE];
-};
 
 static bool open_work(struct work *work, const struct verify_options *options, struct solver_error *error)
 {
@@ -121,7 +136,9 @@ static bool run_scene(struct work *work, struct verify_pick *pick, struct solver
     if (history->count > 0) {
         verify_terminal_totals(stdout, scene, &history->totals[0], &history->totals[history->count - 1]);
     }
-    bool kept = judge(scene, run, &facts, error) && keep(scene, run, work->folder, work->line, error) &&
+    char record_path[VERIFY_PATH];
+    bool kept = keep(work, run, record_path, error) && judge(scene, run, &facts, error) &&
+                draw(scene, work->folder, record_path, error) &&
                 (pick == NULL || verify_pick_judge(pick, scene, run, error));
     solver_run_free(run);
     return kept;

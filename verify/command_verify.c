@@ -46,11 +46,11 @@ static bool draw(struct work *work, struct solver_error *error)
         return false;
     }
     bool done = verify_path_join(study->picture, work->folder, scene->name, ".png", error) &&
-                verify_picture_write(study->picture, record, view, scene->title, error);
+                verify_picture_write(study->picture, record, view, scene->title, study->record, error);
     if (done && !work->truth.none) {
         verify_picture_exact(record, work->truth.kind, work->truth.oracle);
         done = verify_path_join(study->exact_picture, work->folder, scene->name, ".exact.png", error) &&
-               verify_picture_write(study->exact_picture, record, view, title, error);
+               verify_picture_write(study->exact_picture, record, view, title, study->record, error);
     }
     solver_record_free(record);
     return done;

@@ -99,7 +99,8 @@ bool verify_extreme_check(const struct verify_extreme *extreme, const struct ver
 
 bool verify_extreme_holds(const struct verify_extreme_row *row)
 {
-    return isgreaterequal(row->value, row->least) && islessequal(row->value, row->most); /* no number is neither */
+    /* no number is neither; one beyond all numbers was not measured */
+    return isfinite(row->value) && row->value >= row->least && row->value <= row->most;
 }
 
 bool verify_extreme_asked(const struct verify_extremes *in, const char *what)

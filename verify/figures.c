@@ -191,8 +191,9 @@ bool verify_figures_measure(const struct solver_scene *scene, const struct verif
                             const struct solver_history *history, const struct solver_output *output,
                             struct verify_level *level, struct solver_error *error)
 {
+    const char *why = NULL;
     const struct verify_measuring in = {
-        .scene = scene, .truth = truth, .level = level, .history = history, .output = output};
+        .scene = scene, .truth = truth, .level = level, .history = history, .output = output, .why = &why};
     for (size_t i = 0; i < scene->figure_count; i++) {
         const struct verify_measure *measure = verify_measure_find(scene->figure[i].measure);
         struct verify_argument argument[VERIFY_ARGUMENTS] = {{0}};
@@ -208,10 +209,12 @@ bool verify_figures_measure(const struct solver_scene *scene, const struct verif
         }
         bool length = measure->option[0].kind == VERIFY_LENGTH;
         out->exact = !measure->expected ? out->exact : length ? argument[0].length : argument[0].number;
+        why = measure->lacks;
         if (!measure->measure(&in, argument, &out->measured, error)) {
             return false;
         }
         out->error = out->exact == 0 ? fabs(out->measured) : fabs(out->measured / out->exact - 1);
+        out->why = isfinite(out->error) ? "" : isfinite(out->measured) ? "what is expected is no number" : why;
     }
     return true;
 }

@@ -1,6 +1,6 @@
 #include "verify/find.h"
 
-#include "verify/suggest.h"
+#include "solver/suggest.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -91,7 +91,7 @@ static bool refuse(const char *word, const struct verify_scenes *scenes, struct 
     for (size_t i = 0; i < scenes->count; i++) {
         names[i] = scenes->name[i];
     }
-    const char *meant = verify_suggest(word, names, scenes->count);
+    const char *meant = solver_suggest(word, names, scenes->count);
     if (meant != NULL) {
         return solver_fail(error, SOLVER_BAD_INPUT, "there is no scene \"%.64s\" in %s; did you mean %s?", word,
                            scenes->folder, meant);
@@ -137,6 +137,23 @@ bool verify_scene_open(const struct verify_options *options, int n, struct solve
            solver_scene_load(path, override, count, scene, error);
 }
 
+/* A folder in the place of a result would be noticed when there is one. */
+static bool nothing_in_the_way(const char *folder, const char *scene_name, struct solver_error *error)
+{
+    static const char *const endings[] = {".vtkhdf", ".xdmf", ".png"};
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        char path[VERIFY_PATH];
+        struct stat status;
+        if (!verify_path_join(path, folder, scene_name, endings[i], error)) {
+            return false;
+        }
+        if (stat(path, &status) == 0 && S_ISDIR(status.st_mode)) {
+            return solver_fail(error, SOLVER_IO, "%.400s: is a folder, and a result is to be written there", path);
+        }
+    }
+    return true;
+}
+
 bool verify_out_folder(const struct verify_options *options, const char *scene_name, char folder[VERIFY_PATH],
                        struct solver_error *error)
 {
@@ -145,5 +162,5 @@ bool verify_out_folder(const struct verify_options *options, const char *scene_n
     if (length >= VERIFY_PATH) {
         return solver_fail(error, SOLVER_BAD_INPUT, "--out: the path is too long");
     }
-    return verify_folder_make(folder, error);
+    return verify_folder_make(folder, error) && nothing_in_the_way(folder, scene_name, error);
 }

@@ -46,8 +46,8 @@ static bool judge_bound(const struct solver_scene *scene, size_t index, const st
     if (!verify_level_value(scene, finest, bound->name, where, &measured, why)) {
         return false;
     }
-    *gate =
-        (struct verify_gate){.value = measured.value, .bound = bound->value, .op = measured.op, .unit = measured.unit};
+    *gate = (struct verify_gate){
+        .value = measured.value, .bound = bound->value, .op = measured.op, .unit = measured.unit, .why = measured.why};
     (void)snprintf(gate->name, sizeof gate->name, "%s", bound->name);
     gate->pass = verify_gate_judge(gate->value, gate->op, gate->bound);
     return true;

@@ -16,6 +16,7 @@ struct verify_gate {
     double bound;
     const char *op; /* "<=" for errors, ">=" for orders */
     const char *unit;
+    const char *why; /* the value is no finite number; "" if it is one */
     bool pass;
 };
 

@@ -65,9 +65,13 @@ void verify_html_gates(FILE *file, const struct verify_gates *judged)
         (void)fprintf(file, "<tr><td>");
         verify_html_text(file, gate->name);
         (void)fprintf(file, isnan(gate->value) ? "</td><td>&ndash;</td>" : "</td><td>%.4g</td>", gate->value);
-        (void)fprintf(file, "<td>%s</td><td>%.4g</td><td>%s</td><td class=\"%s</td></tr>\n",
-                      gate->op[0] == '<' ? "&le;" : "&ge;", gate->bound, gate->unit,
-                      gate->pass ? "pass\">PASS" : "fail\">FAIL");
+        (void)fprintf(file, "<td>%s</td><td>%.4g</td><td>%s</td><td class=\"%s", gate->op[0] == '<' ? "&le;" : "&ge;",
+                      gate->bound, gate->unit, gate->pass ? "pass\">PASS" : "fail\">FAIL");
+        if (!isfinite(gate->value)) {
+            (void)fputs(", nothing was measured: ", file);
+            verify_html_text(file, gate->why);
+        }
+        (void)fputs("</td></tr>\n", file);
     }
     (void)fprintf(file, "</table>\n");
 }

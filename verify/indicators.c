@@ -7,14 +7,19 @@
 #include <string.h>
 
 static const struct {
-    const char *name, *op, *meaning;
+    const char *name, *op, *meaning, *lacks;
 } table[VERIFY_INDICATORS] = {
-    [VERIFY_CLUMPING] = {"clumping", ">=", "smallest distance of two particles over the spacing"},
-    [VERIFY_CHECKERBOARD] = {"checkerboard", "<=", "departure of the pressure from its neighbours' mean, over itself"},
+    [VERIFY_CLUMPING] = {"clumping", ">=", "smallest distance of two particles over the spacing",
+                         "places are no numbers"},
+    [VERIFY_CHECKERBOARD] = {"checkerboard", "<=", "departure of the pressure from its neighbours' mean, over itself",
+                             "there is no pressure, or no particle has neighbours on all sides; take a larger n"},
     [VERIFY_LINEAR_MOMENTUM] = {"linear momentum",
-                                "<=", "drift of the free body, with a wall it meets, over sqrt(2 mass kinetic energy)"},
-    [VERIFY_ANGULAR_MOMENTUM] = {"angular momentum", "<=", "drift of the free body, over that and its half diagonal"},
-    [VERIFY_ENERGY_GAIN] = {"energy gain", "<=", "largest gain beyond what was put in, over that"},
+                                "<=", "drift of the free body, with a wall it meets, over sqrt(2 mass kinetic energy)",
+                                "faces or loads act on the body, or it does not move"},
+    [VERIFY_ANGULAR_MOMENTUM] = {"angular momentum", "<=", "drift of the free body, over that and its half diagonal",
+                                 "faces, loads or a wall act on the body, or it does not move"},
+    [VERIFY_ENERGY_GAIN] = {"energy gain", "<=", "largest gain beyond what was put in, over that",
+                            "a face is moved, and what it puts in is not measured, or there is no energy"},
 };
 
 const char *verify_indicator_name(size_t indicator)
@@ -30,6 +35,11 @@ const char *verify_indicator_meaning(size_t indicator)
 const char *verify_indicator_op(size_t indicator)
 {
     return table[indicator].op;
+}
+
+const char *verify_indicator_lacks(size_t indicator)
+{
+    return table[indicator].lacks;
 }
 
 size_t verify_indicator_find(const char *name)

@@ -19,6 +19,8 @@ const char *verify_indicator_name(size_t indicator);
 const char *verify_indicator_meaning(size_t indicator);
 /* The good side: ">=" or "<=". */
 const char *verify_indicator_op(size_t indicator);
+/* Why a run may have none, and what to do. */
+const char *verify_indicator_lacks(size_t indicator);
 /* VERIFY_INDICATORS if there is none of that name. */
 size_t verify_indicator_find(const char *name);
 

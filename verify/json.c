@@ -43,7 +43,9 @@ void verify_json_number_member(FILE *file, const char *key, double value)
     verify_json_number(file, value);
 }
 
-static void gate_object(FILE *file, const char *name, double value, double bound, const char *op, bool pass)
+/* `why`: the value is no number; "": it is one. */
+static void gate_object(FILE *file, const char *name, double value, double bound, const char *op, bool pass,
+                        const char *why)
 {
     (void)fputc('{', file);
     verify_json_text_member(file, "name", name);
@@ -51,7 +53,12 @@ static void gate_object(FILE *file, const char *name, double value, double bound
     verify_json_number_member(file, "value", value);
     (void)fputs(", ", file);
     verify_json_number_member(file, "bound", bound);
-    (void)fprintf(file, ", \"op\": \"%s\", \"pass\": %s}", op, pass ? "true" : "false");
+    (void)fprintf(file, ", \"op\": \"%s\", \"pass\": %s", op, pass ? "true" : "false");
+    if (why[0] != '\0') {
+        (void)fputs(", ", file);
+        verify_json_text_member(file, "why", why);
+    }
+    (void)fputc('}', file);
 }
 
 /* Lines of the oracle's self-check that fail stand among the gates: they decide too. */
@@ -65,14 +72,15 @@ void verify_json_verdict(FILE *file, const struct verify_truth *truth, const str
             char name[256];
             (void)snprintf(name, sizeof name, "oracle self-check: %s", line->law);
             (void)fputs(between, file);
-            gate_object(file, name, line->residual, line->bound, "<=", false);
+            gate_object(file, name, line->residual, line->bound, "<=", false,
+                        isfinite(line->residual) ? "" : "the residual is no number");
             between = ",\n    ";
         }
     }
     for (size_t i = 0; i < gates->count; i++) {
         const struct verify_gate *gate = &gates->gate[i];
         (void)fputs(between, file);
-        gate_object(file, gate->name, gate->value, gate->bound, gate->op, gate->pass);
+        gate_object(file, gate->name, gate->value, gate->bound, gate->op, gate->pass, gate->why);
         between = ",\n    ";
     }
     const char *verdict = !truth->proven || (gates->count > 0 && !gates->pass) ? "false"

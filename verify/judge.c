@@ -1,7 +1,7 @@
 #include "verify/judge.h"
 
+#include "solver/suggest.h"
 #include "verify/study.h"
-#include "verify/suggest.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -138,6 +138,8 @@ static bool judge(struct verify_judgement *judgement, const char *text, bool rat
                                  .bound = bound,
                                  .op = is_rate ? ">=" : "<=",
                                  .unit = is_rate ? "-" : verify_judged_unit(judgement->truth->kind, which)};
+    gate->why = is_rate ? verify_why_no_order(finest->rate[which], finest->error[which], judgement->level_count > 1)
+                        : verify_why_no_error(finest->error[which]);
     (void)snprintf(gate->name, sizeof gate->name, "%s", name);
     gate->pass = verify_gate_judge(gate->value, gate->op, gate->bound);
     return true;

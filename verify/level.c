@@ -24,6 +24,21 @@ size_t verify_level_error(const char *name, bool *is_rate)
     return verify_error_find(name);
 }
 
+const char *verify_why_no_error(double error)
+{
+    return isfinite(error) ? ""
+           : isnan(error)  ? "a field is no number, or the exact one is 0 throughout; of the latter take the _abs error"
+                           : "a field has grown beyond all numbers";
+}
+
+const char *verify_why_no_order(double order, double error, bool follows)
+{
+    return isfinite(order)    ? ""
+           : !follows         ? "one level has no order; give two or more, as in --levels 8,16"
+           : !isfinite(error) ? "the error that it would be of is no number"
+                              : "the error of a level is 0, or no number";
+}
+
 static bool figure_value(const struct solver_scene *scene, const struct verify_level *level, const char *name,
                          bool is_rate, const char *where, struct verify_value *value, struct solver_error *error)
 {
@@ -31,6 +46,9 @@ static bool figure_value(const struct solver_scene *scene, const struct verify_l
         if (strcmp(scene->figure[i].name, name) == 0) {
             const struct verify_figure *figure = &level->figure[i];
             value->value = is_rate ? figure->rate : figure->error;
+            value->why = is_rate && isfinite(figure->error)
+                             ? verify_why_no_order(figure->rate, figure->error, level->follows)
+                             : figure->why;
             if (!is_rate && figure->exact == 0.0 && figure->unit != NULL) {
                 value->unit = figure->unit; /* of an absolute error; others are relative */
             }
@@ -52,6 +70,7 @@ static bool indicator_value(const struct verify_level *level, const char *name, 
                            where, is_rate ? "rate " : "", name);
     }
     value->value = level->indicator[which];
+    value->why = isfinite(value->value) ? "" : verify_indicator_lacks(which);
     value->op = verify_indicator_op(which);
     return true;
 }
@@ -77,6 +96,8 @@ static bool error_value(const struct solver_scene *scene, const struct verify_le
     }
     value->value = is_rate ? level->rate[which] : level->error[which];
     value->unit = is_rate ? "-" : verify_error_unit(which);
+    value->why = is_rate ? verify_why_no_order(level->rate[which], level->error[which], level->follows)
+                         : verify_why_no_error(level->error[which]);
     return true;
 }
 
@@ -85,7 +106,7 @@ bool verify_level_value(const struct solver_scene *scene, const struct verify_le
 {
     const char *of;
     bool is_rate = begins(name, "rate ", &of);
-    *value = (struct verify_value){.op = is_rate ? ">=" : "<=", .unit = "-"};
+    *value = (struct verify_value){.op = is_rate ? ">=" : "<=", .unit = "-", .why = ""};
     if (begins(of, "indicator ", &of)) {
         return indicator_value(level, of, is_rate, where, value, error);
     }

@@ -14,12 +14,14 @@ struct verify_figure {
     double error;           /* relative to the exact value; where that is 0, the magnitude of the measured one */
     double rate;            /* observed order of the error from the level before; NaN at the first */
     const char *unit;
+    const char *why; /* the error is no number, and what to do; "" if it is one */
 };
 
 struct verify_level {
     int n;                       /* spacings along the reference length */
     struct solver_facts facts;   /* spacing h, particles, steps, seconds, ... */
     double ns_per_particle_step; /* [ns], time loop alone */
+    bool follows;                /* a level is before it, from which there are orders */
     double error[VERIFY_ERRORS];
     double rate[VERIFY_ERRORS]; /* observed order from the level before to this one; NaN at the first */
     size_t snapshot_count;      /* taken so far */
@@ -33,7 +35,12 @@ struct verify_value {
     double value;   /* NaN: could not be measured */
     const char *op; /* the side that is good: "<=" for errors, ">=" for orders */
     const char *unit;
+    const char *why; /* the value is no finite number, and what to do; "" if it is one */
 };
+
+/* Why an error is no finite number, and why an order of it is none, beside a level before or not; "" if it is one. */
+const char *verify_why_no_error(double error);
+const char *verify_why_no_order(double order, double error, bool follows);
 
 /* The error that a gate's name is of, VERIFY_ERRORS if there is none; *is_rate (may be NULL): "rate " stands before it.
  */

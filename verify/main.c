@@ -1,9 +1,9 @@
 /* assay: the command line. Dispatch only; each command stands in its own file. */
+#include "solver/suggest.h"
 #include "verify/commands.h"
 #include "verify/help.h"
 #include "verify/manual.h"
 #include "verify/signals.h"
-#include "verify/suggest.h"
 #include "verify/trap.h"
 
 #include "solver/path.h"
@@ -215,7 +215,7 @@ static int refuse(const char *word)
     for (size_t i = 0; i < COMMANDS; i++) {
         names[i] = commands[i].name;
     }
-    const char *meant = verify_suggest(word, names, COMMANDS);
+    const char *meant = solver_suggest(word, names, COMMANDS);
     struct solver_error error;
     (void)solver_fail(&error, SOLVER_BAD_INPUT, "there is no command %s; %s%s%s", word,
                       meant != NULL ? "did you mean assay " : "see assay --help", meant != NULL ? meant : "",

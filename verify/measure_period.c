@@ -73,13 +73,13 @@ static double left_over(const struct motion *motion, const gsl_vector *residual)
     return left / all;
 }
 
-static double fit(struct motion *motion)
+static double fit(const struct motion *motion)
 {
     const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     double guess[PARAMETERS] = {0, 0.5, 0.5, M_PI, 0}; /* the unit of time is half a period */
     gsl_vector_view start = gsl_vector_view_array(guess, PARAMETERS);
     gsl_multifit_nlinear_fdf problem = {
-        .f = residuals, .df = derivatives, .n = motion->count, .p = PARAMETERS, .params = motion};
+        .f = residuals, .df = derivatives, .n = motion->count, .p = PARAMETERS, .params = (void *)motion};
     gsl_multifit_nlinear_workspace *work =
         gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, motion->count, PARAMETERS);
     int why = 0;
@@ -91,28 +91,46 @@ static double fit(struct motion *motion)
     return 2 * M_PI / frequency * motion->unit;
 }
 
-double verify_period_fit(size_t count, const double *time, const double *displacement)
+/* The motion about the middle between its ends; false, and why, if it is none. */
+static bool find_motion(size_t count, const double *time, const double *displacement, struct motion *motion,
+                        const char **why)
 {
-    double low = INFINITY, high = -INFINITY, first = NAN, last = NAN;
-    if (count < 2 * PARAMETERS) {
-        return NAN;
-    }
+    double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < count; i++) {
         low = fmin(low, displacement[i]);
         high = fmax(high, displacement[i]);
     }
-    struct motion motion = {.count = count,
-                            .time = time,
-                            .displacement = displacement,
-                            .begin = time[0],
-                            .middle = (low + high) / 2,
-                            .size = (high - low) / 2};
-    size_t found = motion.size > 0 ? crossings(&motion, &first, &last) : 0;
-    if (found < 3 || !isfinite(motion.size)) {
+    *motion = (struct motion){.count = count,
+                              .time = time,
+                              .displacement = displacement,
+                              .begin = count > 0 ? time[0] : 0,
+                              .middle = (low + high) / 2,
+                              .size = (high - low) / 2};
+    *why = count < 2 * PARAMETERS    ? "the history has fewer than 10 rows; set history or t_end higher, or cfl lower"
+           : !isfinite(motion->size) ? "the probe's motion is no number"
+           : !(motion->size > 0)     ? "the probe does not move"
+                                     : NULL;
+    return *why == NULL;
+}
+
+double verify_period_fit(size_t count, const double *time, const double *displacement, const char **why)
+{
+    struct motion motion;
+    const char *unasked = NULL, **said = why != NULL ? why : &unasked;
+    double first = NAN, last = NAN;
+    if (!find_motion(count, time, displacement, &motion, said)) {
+        return NAN;
+    }
+    size_t found = crossings(&motion, &first, &last);
+    if (found < 3) {
+        *said = "the probe crosses the middle of its motion fewer than three times, so that one and a half periods are "
+                "not there; set t_end higher";
         return NAN;
     }
     motion.unit = (last - first) / (double)(found - 1);
-    return fit(&motion);
+    double period = fit(&motion);
+    *said = isfinite(period) ? NULL : "no damped oscillation explains half of the probe's motion; is it one vibration?";
+    return period;
 }
 
 static bool period_of(const struct verify_measuring *in, size_t probe, double *value, struct solver_error *error)
@@ -121,7 +139,7 @@ static bool period_of(const struct verify_measuring *in, size_t probe, double *v
     if (!verify_trace_take(in->history, probe, &trace, error)) {
         return false;
     }
-    *value = verify_period_fit(trace.count, trace.time, trace.displacement);
+    *value = verify_period_fit(trace.count, trace.time, trace.displacement, in->why);
     verify_trace_free(&trace);
     return true;
 }

@@ -13,6 +13,7 @@ struct verify_measuring {
     const struct verify_level *level;
     const struct solver_history *history;
     const struct solver_output *output; /* at the end of the run */
+    const char **why;                   /* a measure that finds nothing may say why; NULL: nobody asks */
 };
 
 /* Options of a measure, all of which it needs. */
@@ -52,6 +53,7 @@ struct verify_measure {
     bool flow;          /* of a material that flows plastically */
     const char *unit;   /* of one that needs no oracle; NULL: none */
     bool needs_fronts;
+    const char *lacks; /* why there may be nothing to measure, and what to do, where the measure says no more */
     /* The figure; NaN where there is nothing to measure. Arguments in the order of `option`. */
     bool (*measure)(const struct verify_measuring *in, const struct verify_argument *argument, double *value,
                     struct solver_error *error);
@@ -130,8 +132,9 @@ bool verify_impact_loss(const struct verify_measuring *in, const struct verify_a
                         struct solver_error *error);
 
 /* Period [s] of u(t) = a + exp(-d t) (b cos w t + c sin w t), fitted by least squares to `count` rows; NaN where fewer
- * than one and a half periods are there, or such a motion explains less than half of what is there. */
-double verify_period_fit(size_t count, const double *time, const double *displacement);
+ * than one and a half periods are there, or such a motion explains less than half of what is there: *why (NULL: nobody
+ * asks) then says so, and what to do. */
+double verify_period_fit(size_t count, const double *time, const double *displacement, const char **why);
 /* The peak of the stress within [from, to]: the value of largest magnitude, with its sign, of the parabola through the
  * particle that has it and its two neighbours. NaN if there is none within: the largest lies at an end. */
 double verify_peak(size_t count, const struct verify_point *point, double from, double to);

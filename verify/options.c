@@ -1,6 +1,6 @@
 #include "verify/options.h"
 
-#include "verify/suggest.h"
+#include "solver/suggest.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -106,7 +106,7 @@ static bool unknown(const struct verify_command *command, const char *word, stru
     }
     char name[64];
     (void)snprintf(name, sizeof name, "%.*s", (int)strcspn(word, "="), word);
-    const char *meant = verify_suggest(name, names, count);
+    const char *meant = solver_suggest(name, names, count);
     if (foreign(command, name, error)) {
         return false;
     }

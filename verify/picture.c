@@ -240,14 +240,17 @@ bool verify_picture_draw(const struct solver_record *record, const struct solver
 }
 
 bool verify_picture_write(const char *path, const struct solver_record *record, const struct solver_view *view,
-                          const char *title, struct solver_error *error)
+                          const char *title, const char *kept, struct solver_error *error)
 {
     struct render_image *image = NULL;
-    if (!verify_picture_draw(record, view, title, &image, error)) {
-        return false;
-    }
     char why[RENDER_WHY] = "";
-    bool written = render_png_write(path, image, why);
+    bool done = verify_picture_draw(record, view, title, &image, error) &&
+                (render_png_write(path, image, why) || solver_fail(error, SOLVER_IO, "%s", why));
     render_image_free(image);
-    return written || solver_fail(error, SOLVER_IO, "%s: %s", path, why);
+    if (!done && kept != NULL) {
+        size_t used = strlen(error->text);
+        (void)snprintf(error->text + used, sizeof error->text - used, "; the record is in %.400s, for assay render",
+                       kept);
+    }
+    return done;
 }

@@ -14,9 +14,9 @@ bool verify_picture_draw(const struct solver_record *record, const struct solver
 /* Whether the records of a scene will have the field that its view names: what is wrong is said before a run, not
  * after it. */
 bool verify_picture_check(const struct solver_scene *scene, struct solver_error *error);
-/* Draws and writes a PNG. */
+/* Draws and writes a PNG. If that fails the error says where the record is kept, unless `kept` is NULL. */
 bool verify_picture_write(const char *path, const struct solver_record *record, const struct solver_view *view,
-                          const char *title, struct solver_error *error);
+                          const char *title, const char *kept, struct solver_error *error);
 
 /* Replaces the fields of a record that an oracle knows by the exact ones at the record's time, and removes the
  * others. */

@@ -64,6 +64,10 @@ static void figures(FILE *file, const struct solver_scene *scene, const struct v
         verify_json_number_member(file, "exact", level->figure[i].exact);
         (void)fputs(", ", file);
         verify_json_number_member(file, "error", level->figure[i].error);
+        if (level->figure[i].why[0] != '\0') {
+            (void)fputs(", ", file);
+            verify_json_text_member(file, "why", level->figure[i].why);
+        }
         (void)fputc('}', file);
     }
     (void)fputc('}', file);

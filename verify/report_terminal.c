@@ -182,6 +182,9 @@ static void print_figures(FILE *file, const struct verify_study *study)
         (void)fprintf(file, "  %-24s %16.9g %16.9g %-8s %10s %6s\n", study->scene->figure[i].name, figure->measured,
                       figure->exact, figure->unit, verify_scientific(error, figure->error),
                       verify_order_text(rate, figure->rate));
+        if (figure->why[0] != '\0') {
+            (void)fprintf(file, "    %s: not measured: %s\n", study->scene->figure[i].name, figure->why);
+        }
     }
     if (study->scene->figure_count > 0) {
         (void)fprintf(file, "  error: |measured / expected - 1|, or |measured|, in its unit, where 0 is expected\n");

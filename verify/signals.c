@@ -36,8 +36,8 @@ static bool just_now(void)
 
 static void note(int number)
 {
-    static const char said[] =
-        "\nassay: stopping after this step, or when the run is set up; once more ends it at once\n";
+    static const char said[] = "\nassay: stopping after this step, or when the run is set up or its record written; "
+                               "once more ends it at once\n";
     if (asked == number && just_now()) {
         return;
     }

@@ -17,7 +17,8 @@ bool verify_record(const struct solver_scene *scene, struct solver_run *run, con
                    const char *command, char *path, struct solver_error *error)
 {
     struct solver_output output;
-    return verify_path_join(path, folder, stem, ".vtkhdf", error) && solver_run_output(run, &output, error) &&
+    return verify_path_join(path, folder, stem, ".vtkhdf", error) && verify_folder_make(folder, error) &&
+           solver_run_output(run, &output, error) &&
            solver_record_write(path, scene, &output, solver_run_history(run), command, ASSAY_VERSION, error);
 }
 
@@ -212,6 +213,16 @@ static bool advance(struct journey *at, verify_take *take, void *context, struct
     return go_to(at, scene->t_end, error);
 }
 
+/* Of a run that goes on, what its energies are compared with at the end was noted before. */
+static bool knows_its_start(const struct journey *at, struct solver_error *error)
+{
+    return solver_run_history(at->run)->count > 0 ||
+           solver_fail(error, SOLVER_BAD_INPUT,
+                       "%s: cannot go on from step %zu: the checkpoint's history has no row, so that the energies and "
+                       "momenta of the start are not known; those that assay run writes have one; begin anew",
+                       at->scene->name, at->step);
+}
+
 /* Makes the run, and puts it where it goes on from. */
 static bool begin(struct journey *at, struct solver_checkpoint **from, struct solver_error *error)
 {
@@ -223,7 +234,7 @@ static bool begin(struct journey *at, struct solver_checkpoint **from, struct so
     }
     at->time = at->progress.from = solver_checkpoint_about(*from)->time;
     at->step = solver_checkpoint_about(*from)->step;
-    bool restored = solver_checkpoint_restore(*from, at->run, error);
+    bool restored = solver_checkpoint_restore(*from, at->run, error) && knows_its_start(at, error);
     solver_checkpoint_free(*from);
     *from = NULL;
     return restored;

@@ -29,7 +29,8 @@ struct verify_keeping {
 bool verify_simulate_kept(struct solver_scene *scene, const char *folder, const char *command,
                           struct verify_keeping *keeping, struct solver_run **run, struct solver_error *error);
 
-/* Writes the run's present state to FOLDER/STEM.vtkhdf (and .xdmf) and gives the path (VERIFY_PATH bytes). */
+/* Writes the run's present state to FOLDER/STEM.vtkhdf (and .xdmf) and gives the path (VERIFY_PATH bytes). A folder
+ * that has vanished since the run began is made again. */
 bool verify_record(const struct solver_scene *scene, struct solver_run *run, const char *folder, const char *stem,
                    const char *command, char *path, struct solver_error *error);
 

@@ -33,6 +33,7 @@ void verify_study_add(struct verify_study *study, const struct verify_level *lev
     double particle_steps = (double)level->facts.particles * (double)level->facts.steps;
     added->ns_per_particle_step = 1e9 * level->facts.seconds / particle_steps;
     const struct verify_level *before = study->level_count > 0 ? added - 1 : NULL;
+    added->follows = before != NULL;
     for (size_t i = 0; i < VERIFY_ERRORS; i++) {
         added->rate[i] = verify_error_has_order(i)
                              ? order_from(before, before != NULL ? before->error[i] : NAN, added, added->error[i])
@@ -93,27 +94,12 @@ const char *verify_verdict(const struct verify_study *study)
                : "PASS: all gates hold";
 }
 
-/* Keys that say how a scene is solved, not what it is. */
-static bool is_method(const char *key, size_t length)
-{
-    static const char *const methods[] = {
-        "scheme",           "evolved",    "stencil",   "support", "reconstruction", "volume_flux",
-        "angular_momentum", "integrator", "cfl",       "n",       "perturb",        "seed",
-        "precision",        "threads",    "snapshots", "history", "beside",         "trade"};
-    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
-        if (strlen(methods[i]) == length && strncmp(methods[i], key, length) == 0) {
-            return true;
-        }
-    }
-    return strncmp(key, "oracle.", 7) == 0 || strncmp(key, "view.", 5) == 0;
-}
-
 /* Whether all overrides of the command line leave the problem that was published. */
 static bool is_as_published(const struct solver_scene *scene)
 {
     for (const char *line = scene->overrides; line != NULL && *line != '\0';) {
         size_t length = strcspn(line, "\n");
-        if (!is_method(line, strcspn(line, "="))) {
+        if (solver_scene_key_says(line, strcspn(line, "=")) == SOLVER_KEY_PROBLEM) {
             return false;
         }
         line += length + (line[length] == '\n' ? 1 : 0);

@@ -64,7 +64,9 @@ void verify_print_gates(FILE *file, const struct verify_gates *gates)
     (void)fprintf(file, "\n  %-24s %12s    %-12s %s\n", "gate", "measured", "bound", "unit");
     for (size_t i = 0; i < gates->count; i++) {
         const struct verify_gate *gate = &gates->gate[i];
-        (void)fprintf(file, "  %-24s %12.4g %s %-12.4g [%s]  %s%s\n", gate->name, gate->value, gate->op, gate->bound,
-                      gate->unit, gate->pass ? "PASS" : "FAIL", isfinite(gate->value) ? "" : " (nothing was measured)");
+        bool none = !isfinite(gate->value);
+        (void)fprintf(file, "  %-24s %12.4g %s %-12.4g [%s]  %s%s%s%s\n", gate->name, gate->value, gate->op,
+                      gate->bound, gate->unit, gate->pass ? "PASS" : "FAIL", none ? " (nothing was measured: " : "",
+                      none ? gate->why : "", none ? ")" : "");
     }
 }

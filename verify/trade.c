@@ -83,23 +83,13 @@ void verify_trade_free(struct verify_trade *trade)
 
 bool verify_trade_key(const char *key, size_t length)
 {
-    static const char *const keys[] = {"scheme",        "evolved", "stencil",    "support",     "reconstruction",
-                                       "integrator",    "cfl",     "precision",  "volume_flux", "angular_momentum",
-                                       "perturb",       "lattice", "jst.kappa2", "jst.kappa4",  "jst.kappa4_plastic",
-                                       "jst.plastic_at"};
-    static const char *const groups[] = {"ulsph.", "incompressible."};
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
-        if (strlen(keys[i]) == length && strncmp(keys[i], key, length) == 0) {
-            return true;
+    static const char *const others[] = {"n", "seed"}; /* levels have an option, and no draw is a better method */
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        if (strlen(others[i]) == length && strncmp(others[i], key, length) == 0) {
+            return false;
         }
     }
-    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++) {
-        size_t prefix = strlen(groups[i]);
-        if (length > prefix && strncmp(key, groups[i], prefix) == 0) {
-            return true;
-        }
-    }
-    return false;
+    return solver_scene_key_says(key, length) == SOLVER_KEY_METHOD;
 }
 
 bool verify_trade_word(const char *words, const char *key, char value[SOLVER_NAME])

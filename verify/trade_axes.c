@@ -1,6 +1,6 @@
 /* Which keys a study of costs varies, and what values it tries. */
+#include "solver/suggest.h"
 #include "verify/gates.h"
-#include "verify/suggest.h"
 #include "verify/trade.h"
 
 #include <math.h>
@@ -60,7 +60,7 @@ static bool check_value(const char *key, const char *value, struct solver_error 
         return (end != value && *end == '\0' && isfinite(number)) ||
                solver_fail(error, SOLVER_BAD_INPUT, "--vary %s=%s: expected a number", key, value);
     }
-    const char *meant = verify_suggest(value, names, count);
+    const char *meant = solver_suggest(value, names, count);
     return solver_fail(error, SOLVER_BAD_INPUT, "--vary %s=%s: expected one of %s%s%s%s", key, value, list,
                        meant != NULL ? "; did you mean " : "", meant != NULL ? meant : "", meant != NULL ? "?" : "");
 }
@@ -106,7 +106,7 @@ static bool refuse_key(const char *text, size_t length, struct solver_error *err
         names[i] = usual[i].key;
     }
     (void)snprintf(key, sizeof key, "%.*s", (int)length, text);
-    const char *meant = verify_suggest(key, names, sizeof names / sizeof *names);
+    const char *meant = solver_suggest(key, names, sizeof names / sizeof *names);
     return solver_fail(error, SOLVER_BAD_INPUT,
                        "--vary %s: no key that says how a problem is solved, as scheme, stencil, support, evolved, "
                        "integrator, cfl or precision do%s%s%s",

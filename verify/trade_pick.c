@@ -142,11 +142,17 @@ bool verify_pick_take(void *context, struct solver_run *run, struct solver_error
     return verify_level_snapshot(&pick->level, run, pick->truth.kind, pick->truth.oracle, error);
 }
 
-static void add_gate(struct verify_gates *gates, const char *name, const char *what, double value, double bound)
+/* `why`: the value is no number. */
+static void add_gate(struct verify_gates *gates, const char *name, const char *what, double value, double bound,
+                     const char *why)
 {
     struct verify_gate *gate = &gates->gate[gates->count++];
-    *gate = (struct verify_gate){
-        .value = value, .bound = bound, .op = "<=", .unit = "-", .pass = verify_gate_judge(value, "<=", bound)};
+    *gate = (struct verify_gate){.value = value,
+                                 .bound = bound,
+                                 .op = "<=",
+                                 .unit = "-",
+                                 .why = why,
+                                 .pass = verify_gate_judge(value, "<=", bound)};
     (void)snprintf(gate->name, sizeof gate->name, "%.40s%s", name, what);
     gates->pass = gates->pass && gate->pass;
 }
@@ -164,10 +170,10 @@ bool verify_pick_judge(struct verify_pick *pick, const struct solver_scene *scen
         return false;
     }
     pick->gates = (struct verify_gates){.pass = true};
-    add_gate(&pick->gates, name, "", value.value, pick->bound);
+    add_gate(&pick->gates, name, "", value.value, pick->bound, value.why);
     /* an error of nothing has no size: what is asked for has */
     add_gate(&pick->gates, name, " off the study", fabs(value.value - said) / (said > 0.0 ? said : pick->bound),
-             repeats_to);
+             repeats_to, value.why);
     return true;
 }
 

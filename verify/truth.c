@@ -1,8 +1,8 @@
 #include "verify/truth.h"
 
+#include "solver/suggest.h"
 #include "verify/inside.h"
 #include "verify/manufactured.h"
-#include "verify/suggest.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -109,7 +109,7 @@ static bool refuse_unknown(const struct teller *teller, const struct oracle_kind
             known = known || means(teller->told[i].name, p->name);
         }
         if (!known) {
-            const char *meant = verify_suggest(teller->told[i].name, names, count);
+            const char *meant = solver_suggest(teller->told[i].name, names, count);
             return solver_fail(error, SOLVER_BAD_INPUT, "%s: %s%s: the oracle \"%s\" has no such parameter%s%s%s%s",
                                teller->where, teller->key, teller->told[i].name, kind->name,
                                meant != NULL ? "; did you mean " : "", meant != NULL ? teller->key : "",
@@ -216,7 +216,7 @@ static const struct oracle_kind *find_named(const char *name, struct solver_erro
     for (const struct oracle_kind *const *k = oracle_kinds(); *k != NULL && count < sizeof names / sizeof *names; k++) {
         names[count++] = (*k)->name;
     }
-    const char *meant = kind == NULL ? verify_suggest(name, names, count) : NULL;
+    const char *meant = kind == NULL ? solver_suggest(name, names, count) : NULL;
     if (kind == NULL) {
         (void)solver_fail(error, SOLVER_BAD_INPUT, "there is no oracle \"%s\"%s%s%s", name,
                           meant != NULL ? "; did you mean " : "", meant != NULL ? meant : "",

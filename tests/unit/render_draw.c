@@ -1,5 +1,6 @@
 /* Drawing: the right colours in the right places, no holes, the same bytes each time, and refusals that say why. */
 #include "render/colormap.h"
+#include "render/mesh.h"
 #include "render/render.h"
 #include "tests/unit/unit.h"
 
@@ -272,6 +273,24 @@ static void odd_views_are_drawn_the_same_twice(void)
     }
 }
 
+/* A square, and a triangle that is folded back from one of its sides onto it: of a flat body the fold is no rim. */
+static void folds(void)
+{
+    static const double position[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.6, 0.5, 0}}, scalar[5];
+    static const double eye[3] = {0, 0, 1};
+    static const uint32_t quad[2][4] = {{0, 1, 2, 3}, {1, 2, 4, 4}};
+    const struct render_surface surface = {5, position[0], scalar, 2, quad[0]};
+    struct render_mesh mesh;
+    char why[RENDER_WHY];
+    CU_ASSERT_TRUE_FATAL(render_mesh_build(&surface, eye, &mesh, why));
+    CU_ASSERT_TRUE(mesh.flat);
+    CU_ASSERT_EQUAL(mesh.edge_count, 5);
+    for (size_t i = 0; i < mesh.edge_count; i++) {
+        CU_ASSERT_FALSE(mesh.edge[i][0] == 1 && mesh.edge[i][1] == 2);
+    }
+    render_mesh_free(&mesh);
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -285,6 +304,7 @@ int main(void)
         {"wrong views are refused", wrong_views_are_refused},
         {"wrong surfaces are refused", wrong_surfaces_are_refused},
         {"odd views are drawn the same twice", odd_views_are_drawn_the_same_twice},
+        {"quads over one another in a flat body", folds},
     };
     return unit_main("render draw", tests, sizeof tests / sizeof *tests);
 }

@@ -20,6 +20,7 @@ static const struct solver_checkpoint_about about = {
 struct plan {
     const char *more, *settings;
     size_t before, after;
+    bool unnoted; /* the steps before have no row of history, nor has the start */
 };
 
 static struct sample begin(const struct plan *plan, int threads)
@@ -58,7 +59,12 @@ static void restore(struct sample *sample)
 static void compare(const struct plan *plan, int threads)
 {
     struct sample straight = begin(plan, threads), resumed = begin(plan, 3 - threads);
-    reach(&straight, plan->before);
+    if (plan->unnoted) {
+        CU_ASSERT_FATAL(solver_run_steps(straight.run, plan->before, &straight.error));
+        CU_ASSERT_EQUAL(solver_run_history(straight.run)->count, 0);
+    } else {
+        reach(&straight, plan->before);
+    }
     CU_ASSERT_FATAL(solver_checkpoint_write(path, straight.run, &about, &straight.error));
     size_t pairs = solver_run_facts(straight.run).pairs;
     reach(&straight, plan->after);
@@ -74,7 +80,7 @@ static void compare(const struct plan *plan, int threads)
     }
     CU_ASSERT(same);
     CU_ASSERT_EQUAL(solver_run_facts(straight.run).pairs, solver_run_facts(resumed.run).pairs);
-    CU_ASSERT_EQUAL(solver_run_history(resumed.run)->count, plan->after + 1);
+    CU_ASSERT_EQUAL(solver_run_history(resumed.run)->count, plan->after + 1 - (plan->unnoted ? plan->before : 0));
     free(left.record);
     free(right.record);
     finish(&straight);
@@ -97,7 +103,7 @@ static void every_scheme(void)
             char settings[128];
             (void)snprintf(settings, sizeof settings, "dim=%d scheme=%s material.model=linear-elastic integrator=%s",
                            dim, (*scheme)->name, integrators[dim - 1]);
-            compare(&(struct plan){driven, settings, 5, 11}, 1);
+            compare(&(struct plan){driven, settings, 5, 11, false}, 1);
         }
     }
 }
@@ -112,7 +118,7 @@ static void every_evolved_set(void)
                                            "dim=2 evolved=pF precision=single",
                                            "dim=3 evolved=pFHJ precision=single"};
     for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
-        compare(&(struct plan){driven, settings[i], 5, 11}, 1);
+        compare(&(struct plan){driven, settings[i], 5, 11, false}, 1);
     }
 }
 
@@ -145,25 +151,31 @@ static const char let_go[] = "material = { model = 'linear-elastic', E = 3, nu =
 static void every_part(void)
 {
     static const struct plan plans[] = {
-        {torn, "dim=2 n=6 t_end=3", 30, 60},
-        {torn, "dim=3 n=4 evolved=pF integrator=rk4 t_end=3", 12, 24},
-        {thrown, "dim=2 n=6 evolved=pF t_end=3", 10, 30},
-        {spinning, "dim=2 n=6 evolved=pF t_end=3", 40, 80},
-        {turning, "dim=2 n=8 t_end=30 perturb=0.1 cfl=0.2", 45, 50},
-        {turning, "dim=2 n=8 t_end=30 perturb=0.1 cfl=0.2", 48, 53},
-        {colliding, "dim=2 n=6 t_end=30", 30, 60},
-        {colliding, "dim=2 n=6 t_end=30", 200, 210}, /* they have parted */
-        {let_go, "dim=2 n=4 t_end=3", 20, 40},
+        {torn, "dim=2 n=6 t_end=3", 30, 60, false},
+        {torn, "dim=3 n=4 evolved=pF integrator=rk4 t_end=3", 12, 24, false},
+        {thrown, "dim=2 n=6 evolved=pF t_end=3", 10, 30, false},
+        {spinning, "dim=2 n=6 evolved=pF t_end=3", 40, 80, false},
+        {turning, "dim=2 n=8 t_end=30 perturb=0.1 cfl=0.2", 45, 50, false},
+        {turning, "dim=2 n=8 t_end=30 perturb=0.1 cfl=0.2", 48, 53, false},
+        {colliding, "dim=2 n=6 t_end=30", 30, 60, false},
+        {colliding, "dim=2 n=6 t_end=30", 200, 210, false}, /* they have parted */
+        {let_go, "dim=2 n=4 t_end=3", 20, 40, false},
     };
     for (size_t i = 0; i < sizeof plans / sizeof *plans; i++) {
         compare(&plans[i], 2);
     }
 }
 
+static void before_the_first_row(void)
+{
+    compare(&(struct plan){driven, "dim=2 balance=true", 0, 6, true}, 1);
+    compare(&(struct plan){driven, "dim=2 balance=true", 3, 6, true}, 1);
+}
+
 /* At the end of a run there is nothing to do but to show it. */
 static void at_the_end(void)
 {
-    struct plan plan = {driven, "dim=2 t_end=0.3", 0, 0};
+    struct plan plan = {driven, "dim=2 t_end=0.3", 0, 0, false};
     struct sample straight = begin(&plan, 1), resumed = begin(&plan, 1);
     advance_to(&straight, 0.3);
     CU_ASSERT_FATAL(solver_checkpoint_write(path, straight.run, &about, &straight.error));
@@ -181,7 +193,7 @@ static void at_the_end(void)
 /* What is said beside the state comes back as it was. */
 static void notes(void)
 {
-    struct sample sample = begin(&(struct plan){driven, "dim=2", 3, 3}, 1);
+    struct sample sample = begin(&(struct plan){driven, "dim=2", 3, 3, false}, 1);
     struct solver_checkpoint *checkpoint = NULL;
     reach(&sample, 3);
     CU_ASSERT_FATAL(solver_checkpoint_write(path, sample.run, &about, &sample.error));
@@ -219,8 +231,8 @@ static bool write_on_small_disk(const struct sample *sample, rlim_t limit)
 static void full_disk(void)
 {
     static const rlim_t limits[] = {0, 1, 31, 500, 3000};
-    struct sample sample = begin(&(struct plan){driven, "dim=2", 3, 3}, 1);
-    struct sample later = begin(&(struct plan){driven, "dim=2", 3, 3}, 1);
+    struct sample sample = begin(&(struct plan){driven, "dim=2", 3, 3, false}, 1);
+    struct sample later = begin(&(struct plan){driven, "dim=2", 3, 3, false}, 1);
     struct stat before, after;
     reach(&sample, 3);
     CU_ASSERT_FATAL(solver_checkpoint_write(path, sample.run, &about, &sample.error));
@@ -246,6 +258,7 @@ int main(void)
         {"every scheme goes on as if nothing had happened", every_scheme},
         {"every evolved set", every_evolved_set},
         {"every part that has something to hand on", every_part},
+        {"before the first row of history", before_the_first_row},
         {"a run at its end", at_the_end},
         {"what is said beside the state", notes},
         {"a full disk leaves the checkpoint before", full_disk},

@@ -302,6 +302,8 @@ static void bad_overrides(void)
         {0, 0, "nn=3", ".lua: --set nn=3: unknown key, did you mean n?"},
         {0, 0, "material.mu=3", ".lua: --set material.mu=3: unknown key, did you mean material.nu?"},
         {0, 0, "nu=0.2", ".lua: --set nu=0.2: unknown key, did you mean material.nu?"},
+        {0, 0, "incompressible.tol=1", ": unknown key, did you mean incompressible.tolerance?"},
+        {0, 0, "material.youngs=1", ": unknown key; there are material.model, material.E, "},
         {0, 0, "A=3", "--set A=3: unknown key"},
         {0, "parameters = { A = 1 }", "parameters.B=3", "--set parameters.B=3: unknown key"},
         {0, "parameters = { A = 1 }", "A=x", "parameters.A: expected a number, got the text 'x'"},

@@ -130,9 +130,51 @@ static void every_scene(void)
     CU_ASSERT(others > 0);
 }
 
+/* One that was made by other hands, by steps that no history notes: at the end nobody would know by how much the energy
+ * has changed. */
+static void without_history(void)
+{
+    static const struct solver_checkpoint_about about = {"", "", "", "", "", "", NULL, NULL, 0.0, 0.0, 0, 0};
+    static struct verify_scenes scenes;
+    char path[VERIFY_PATH];
+    struct sample sample;
+    struct verify_keeping keeping = {.from = NULL};
+    struct solver_run *run = NULL;
+    struct solver_error error;
+    CU_ASSERT_FATAL(verify_scenes_list(&scenes, &error));
+    CU_ASSERT_FATAL(verify_path_join(path, scenes.folder, "elastic-cable", ".lua", &error));
+    CU_ASSERT_FATAL(begin(path, NULL, 1, &sample, &error) && solver_run_steps(sample.run, 3, &error));
+    CU_ASSERT_FATAL(solver_checkpoint_write(checkpoint_path, sample.run, &about, &error));
+    CU_ASSERT_FATAL(solver_checkpoint_read(checkpoint_path, &keeping.from, &error));
+    CU_ASSERT_FALSE(verify_simulate_kept(sample.scene, folder, "", &keeping, &run, &error));
+    CU_ASSERT_EQUAL(error.code, SOLVER_BAD_INPUT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "cannot go on from step 3: the checkpoint's history has no row"));
+    solver_run_free(run);
+    solver_checkpoint_free(keeping.from);
+    finish(&sample);
+}
+
+/* A folder of results that is gone when the run is over is made again. */
+static void vanished(void)
+{
+    static struct verify_scenes scenes;
+    char path[VERIFY_PATH], gone[SCRATCH_BELOW];
+    struct sample sample;
+    struct solver_error error = {.text = ""};
+    (void)snprintf(gone, sizeof gone, "%s/gone", folder);
+    CU_ASSERT_FATAL(verify_scenes_list(&scenes, &error));
+    CU_ASSERT_FATAL(verify_path_join(path, scenes.folder, "elastic-cable", ".lua", &error));
+    CU_ASSERT_FATAL(begin(path, NULL, 1, &sample, &error) && run_to_step(sample.scene, sample.run, 1, &error));
+    CU_ASSERT(verify_record(sample.scene, sample.run, gone, "cable", "", path, &error));
+    CU_ASSERT_EQUAL(access(path, R_OK), 0);
+    finish(&sample);
+}
+
 int main(void)
 {
-    static const struct unit_test tests[] = {{"every scene goes on as if nothing had happened", every_scene}};
+    static const struct unit_test tests[] = {{"every scene goes on as if nothing had happened", every_scene},
+                                             {"a checkpoint without history", without_history},
+                                             {"a folder that has vanished", vanished}};
     scratch_folder(folder);
     (void)snprintf(checkpoint_path, sizeof checkpoint_path, "%s/run.checkpoint", folder);
     int result = unit_main("checkpoints of scenes", tests, sizeof tests / sizeof *tests);

@@ -75,6 +75,9 @@ static void rows(void)
     CU_ASSERT_FALSE(row_holds(1.001, -INFINITY, 1));
     CU_ASSERT_FALSE(row_holds(NAN, -INFINITY, INFINITY));
     CU_ASSERT_FALSE(row_holds(NAN, 0, 1));
+    CU_ASSERT_FALSE(row_holds(INFINITY, 1, INFINITY));
+    CU_ASSERT_FALSE(row_holds(INFINITY, -INFINITY, INFINITY));
+    CU_ASSERT_FALSE(row_holds(-INFINITY, -INFINITY, 1));
 }
 
 int main(void)

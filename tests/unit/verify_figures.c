@@ -17,7 +17,7 @@ static double period_of(size_t rows, double T, double damping, double offset, do
         times[i] = t;
         motion[i] = offset + 2e-3 * exp(-damping * t) * sin(2 * M_PI * t / T + 0.3) + other * sin(40 * t);
     }
-    return verify_period_fit(rows, times, motion);
+    return verify_period_fit(rows, times, motion, NULL);
 }
 
 static void clean_oscillations(void)
@@ -38,23 +38,36 @@ static void another_mode(void)
     CU_ASSERT(found != T);
 }
 
+/* No period, and why. */
+static void says(size_t rows, const char *words)
+{
+    const char *why = NULL;
+    CU_ASSERT(isnan(verify_period_fit(rows, times, motion, &why)));
+    CU_ASSERT_FATAL(why != NULL);
+    CU_ASSERT_PTR_NOT_NULL(strstr(why, words));
+}
+
 static void no_oscillation(void)
 {
     CU_ASSERT(isnan(period_of(201, 9, 0, 0, 0))); /* half a period */
+    says(201, "fewer than three times, so that one and a half periods are not there; set t_end higher");
     for (size_t i = 0; i < 201; i++) {
         motion[i] = 3;
     }
-    CU_ASSERT(isnan(verify_period_fit(201, times, motion)));
+    says(201, "does not move");
     for (size_t i = 0; i < 201; i++) {
         motion[i] = (double)((i * i * 7919 + i * 104729) % 1009); /* noise */
     }
-    CU_ASSERT(isnan(verify_period_fit(201, times, motion)));
-    CU_ASSERT(isnan(verify_period_fit(0, times, motion)));
-    CU_ASSERT(isnan(verify_period_fit(9, times, motion)));
+    says(201, "no damped oscillation explains half");
+    says(0, "fewer than 10 rows");
+    says(9, "fewer than 10 rows; set history");
+    const char *why = NULL;
     (void)period_of(201, 0.5, 0, 0, 0);
+    CU_ASSERT(isfinite(verify_period_fit(201, times, motion, &why)));
+    CU_ASSERT_PTR_NULL(why);
     unit_untrapped();
     motion[77] = NAN;
-    CU_ASSERT(isnan(verify_period_fit(201, times, motion)));
+    CU_ASSERT(isnan(verify_period_fit(201, times, motion, NULL)));
 }
 
 static struct verify_point point[64];

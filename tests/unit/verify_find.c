@@ -58,6 +58,21 @@ static void in_the_source_tree(void)
     CU_ASSERT_STRING_EQUAL(folder, TEST_SOURCE_DIR "/golden");
 }
 
+/* A result cannot be written where a folder stands: that is said before a run, not after it. */
+static void nothing_in_the_way(void)
+{
+    char folder[VERIFY_PATH], out[VERIFY_PATH];
+    struct solver_error error = {.text = ""};
+    (void)snprintf(out, sizeof out, "%s", in_root("a/results"));
+    const struct verify_options options = {.out = out};
+    CU_ASSERT_TRUE(verify_out_folder(&options, "cube", folder, &error));
+    CU_ASSERT_STRING_EQUAL(folder, out);
+    CU_ASSERT_EQUAL(mkdir(in_root("a/results/cube.png"), 0777), 0);
+    CU_ASSERT_FALSE(verify_out_folder(&options, "cube", folder, &error));
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "results/cube.png: is a folder"));
+    CU_ASSERT_TRUE(verify_out_folder(&options, "ball", folder, &error));
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -65,6 +80,7 @@ int main(void)
         {"wherever it is moved to", wherever_it_is_moved_to},
         {"not from a build tree", not_from_a_build_tree},
         {"in the source tree", in_the_source_tree},
+        {"nothing in the way of results", nothing_in_the_way},
     };
     scratch_folder(root);
     static const char *const folders[] = {

@@ -27,6 +27,17 @@ static void never_passes(void)
     }
 }
 
+static void says_why(void)
+{
+    CU_ASSERT_STRING_EQUAL(verify_why_no_error(1e-3), "");
+    CU_ASSERT_PTR_NOT_NULL(strstr(verify_why_no_error(NAN), "no number, or the exact one is 0"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(verify_why_no_error(INFINITY), "beyond all numbers"));
+    CU_ASSERT_STRING_EQUAL(verify_why_no_order(1.9, 1e-3, true), "");
+    CU_ASSERT_PTR_NOT_NULL(strstr(verify_why_no_order(NAN, 1e-3, false), "one level has no order"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(verify_why_no_order(NAN, NAN, true), "it would be of is no number"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(verify_why_no_order(INFINITY, 0, true), "of a level is 0"));
+}
+
 static struct solver_scene *scene;
 static struct verify_gates gates;
 static struct solver_error why;
@@ -128,7 +139,7 @@ static void figures(void)
     scene->figure_count = 2;
     strcpy(scene->figure[0].name, "period");
     strcpy(scene->figure[1].name, "contact time");
-    level.figure[1] = (struct verify_figure){.error = 3e-4, .rate = 1.5};
+    level.figure[1] = (struct verify_figure){.error = 3e-4, .rate = 1.5, .why = ""};
     scene->gate[0].bounds = 2;
     scene->gate[0].bound[0] = (struct solver_named){"figure contact time", 1e-3};
     scene->gate[0].bound[1] = (struct solver_named){"rate figure contact time", 1.6};
@@ -232,6 +243,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"both operators, both directions", operators},
         {"what is no number never passes", never_passes},
+        {"and says why", says_why},
         {"the rule that holds", the_rule_that_holds},
         {"one bound decides", one_bound_decides},
         {"a rule without conditions", without_conditions},

@@ -102,17 +102,21 @@ static void verdicts(void)
 {
     prepare();
     CU_ASSERT_TRUE(says("\"pass\": null"));
-    study.gates = (struct verify_gates){.count = 1, .gate = {{"p", 1, 2, "<=", "-", true}}, .pass = true};
+    study.gates = (struct verify_gates){.count = 1, .gate = {{"p", 1, 2, "<=", "-", "", true}}, .pass = true};
     CU_ASSERT_TRUE(says("{\"name\": \"p\", \"value\": 1, \"bound\": 2, \"op\": \"<=\", \"pass\": true}"));
     CU_ASSERT_TRUE(says("],\n  \"pass\": true\n}"));
     study.gates.gate[0].pass = study.gates.pass = false;
     CU_ASSERT_TRUE(says("],\n  \"pass\": false\n}"));
+    study.gates.gate[0].value = NAN;
+    study.gates.gate[0].why = "it was too short";
+    CU_ASSERT_TRUE(
+        says("\"value\": null, \"bound\": 2, \"op\": \"<=\", \"pass\": false, \"why\": \"it was too short\"}"));
 }
 
 static void an_oracle_that_fails(void)
 {
     prepare();
-    study.gates = (struct verify_gates){.count = 1, .gate = {{"p", 1, 2, "<=", "-", true}}, .pass = true};
+    study.gates = (struct verify_gates){.count = 1, .gate = {{"p", 1, 2, "<=", "-", "", true}}, .pass = true};
     truth.check[0].residual = NAN;
     truth.proven = false;
     CU_ASSERT_TRUE(says("{\"name\": \"oracle self-check: PDE\", \"value\": null"));

@@ -1,7 +1,7 @@
 /* The command line. */
+#include "solver/suggest.h"
 #include "tests/unit/unit.h"
 #include "verify/options.h"
-#include "verify/suggest.h"
 
 #include <string.h>
 
@@ -140,14 +140,14 @@ static void tolerances(void)
 static void suggestions(void)
 {
     static const char *const names[] = {"run", "verify", "render", "golden"};
-    CU_ASSERT_STRING_EQUAL(verify_suggest("verfiy", names, 4), "verify");
-    CU_ASSERT_STRING_EQUAL(verify_suggest("rnu", names, 4), "run");
-    CU_ASSERT_STRING_EQUAL(verify_suggest("gold", names, 4), "golden");
-    CU_ASSERT_PTR_NULL(verify_suggest("swinging-cube", names, 4));
-    CU_ASSERT_PTR_NULL(verify_suggest("", names, 4));
+    CU_ASSERT_STRING_EQUAL(solver_suggest("verfiy", names, 4), "verify");
+    CU_ASSERT_STRING_EQUAL(solver_suggest("rnu", names, 4), "run");
+    CU_ASSERT_STRING_EQUAL(solver_suggest("gold", names, 4), "golden");
+    CU_ASSERT_PTR_NULL(solver_suggest("swinging-cube", names, 4));
+    CU_ASSERT_PTR_NULL(solver_suggest("", names, 4));
     static char word[500];
     memset(word, 'r', sizeof word - 1);
-    CU_ASSERT_PTR_NULL(verify_suggest(word, names, 4));
+    CU_ASSERT_PTR_NULL(solver_suggest(word, names, 4));
 }
 
 static void exit_codes(void)

@@ -88,10 +88,17 @@ static void published_rows(void)
     CU_ASSERT(isnan(verify_published(&scene, 16, "P")));
     CU_ASSERT(isnan(verify_published(&scene, 8, "p")));
     /* another method is compared with what was published, another problem is not */
-    static const char *const methods[] = {"", "n=16\n", "stencil=closed\ncfl=0.3\n", "oracle.nu=0.3\nview.bands=4\n"};
-    static const char *const problems[] = {"material.nu=0.3\n", "n=16\nU0=1\n", "t_end=1\n", "cflx=1\n"};
-    for (size_t i = 0; i < 4; i++) {
-        char line[64];
+    static const char *const methods[] = {
+        "",
+        "n=16\n",
+        "stencil=closed\ncfl=0.3\n",
+        "oracle.nu=0.3\nview.bands=4\n",
+        "balance=true\nhistory=9\n",
+        "lattice=centres\nwall=2\ngrading.X=2\njst.kappa4=0\nulsph.xsph=1\nincompressible.solver=poisson\n"};
+    static const char *const problems[] = {"material.nu=0.3\n", "n=16\nU0=1\n",         "t_end=1\n",
+                                           "cflx=1\n",          "faces.X0.kind=free\n", "balance=true\nV.balance=1\n"};
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) {
+        char line[128];
         scene.overrides = line;
         (void)snprintf(line, sizeof line, "%s", methods[i]);
         CU_ASSERT(verify_published(&scene, 16, "p") == 2.198e-4);
