@@ -171,7 +171,7 @@ static bool long_lattice(int spacings, struct solver_error *error)
 static void long_lattices(void)
 {
     struct solver_error error;
-    CU_ASSERT(long_lattice(380, &error));
+    CU_ASSERT(long_lattice(590, &error));
     CU_ASSERT_FALSE(long_lattice(900, &error));
     CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "or iterations do not get there (a long lattice"));
 }
