@@ -57,41 +57,36 @@ static void change(struct solver_closure *work, struct solver_stencil *stencil)
     }
 }
 
-/* Where the multipliers' equation has a factor, each solution with it leaves next to nothing of the residuals, until
- * what round-off and the factor's shift have spoilt is all that is left. */
-static bool project_directly(struct solver_closure *work, struct solver_stencil *stencil, const double *area,
-                             double *worst, struct solver_error *error)
+/* By iterations over spline spaces. */
+static void project_by_rounds(struct solver_closure *work, struct solver_stencil *stencil, const double *area,
+                              double *worst)
 {
-    bool made = false;
-    if (!solver_closure_factor_make(work, &made, error)) {
-        return false;
-    }
-    for (double before = INFINITY; made && *worst > round_off && *worst < 0.5 * before;) {
-        solver_closure_substitute(work, work->residual, work->solution);
+    double before = INFINITY;
+    for (int round = 0; round<ROUNDS && * worst> round_off && *worst < 0.5 * before; round++) {
+        (void)solver_closure_solve(work, fmax(0.5 * round_off, per_round * *worst), ITERATIONS);
         change(work, stencil);
         before = *worst;
         *worst = residuals(work, stencil, area);
     }
-    solver_closure_factor_free(&work->factor);
-    return true;
 }
 
-/* By iterations, over spline spaces. */
-static bool project_by_rounds(struct solver_closure *work, struct solver_stencil *stencil, double radius,
-                              const double *area, double *worst, struct solver_error *error)
+/* Where the multipliers' equation has a factor, each solution with it leaves next to nothing of the residuals, until
+ * what round-off and the factor's shift have spoilt is all that is left. Nothing is done
+ * where there is no factor: it would cost more than iterations do, or there is no memory for it. */
+static void project_directly(struct solver_closure *work, struct solver_stencil *stencil, const double *area,
+                             double *worst)
 {
-    if (!solver_closure_ready(work, radius, error)) {
-        return false;
+    bool made = false;
+    struct solver_error lacking;
+    if (solver_closure_factor_make(work, &made, &lacking) && made) {
+        for (double before = INFINITY; *worst > round_off && *worst < (*worst < spoilt ? 0.5 : 0.9) * before;) {
+            solver_closure_substitute(work, work->residual, work->solution);
+            change(work, stencil);
+            before = *worst;
+            *worst = residuals(work, stencil, area);
+        }
     }
-    double before = INFINITY;
-    *worst = residuals(work, stencil, area);
-    for (int round = 0; round<ROUNDS && * worst> round_off && *worst < 0.5 * before; round++) {
-        solver_closure_solve(work, fmax(0.5 * round_off, per_round * *worst), ITERATIONS);
-        change(work, stencil);
-        before = *worst;
-        *worst = residuals(work, stencil, area);
-    }
-    return true;
+    solver_closure_factor_free(&work->factor);
 }
 
 /* First guess: antisymmetric part of V_a g_ab, kernel sums with equal volumes. The particles' own volumes there (half
@@ -141,17 +136,26 @@ static bool project(struct solver_closure *work, struct solver_stencil *stencil,
             area[point->particle * dim + k] += point->area[k];
         }
     }
+    bool ok = true;
     double worst = residuals(work, stencil, area);
-    bool ok = project_directly(work, stencil, area, &worst, error);
-    if (ok && !(worst < spoilt)) {
-        ok = guess(work, stencil, radius, error) && project_by_rounds(work, stencil, radius, area, &worst, error);
+    project_directly(work, stencil, area, &worst);
+    if (!(worst < spoilt)) {
+        ok = guess(work, stencil, radius, error) && solver_closure_ready(work, radius, error);
+        worst = residuals(work, stencil, area);
+        if (ok) {
+            project_by_rounds(work, stencil, area, &worst);
+        }
     }
     free(area);
     if (ok && !(worst < acceptable)) {
-        return solver_fail(error, SOLVER_BAD_INPUT,
-                           "stencil closed: closure and linear exactness cannot both be met (residual %.1e); choose a "
-                           "larger support, or a smaller perturb",
-                           worst);
+        return solver_fail(
+            error, SOLVER_BAD_INPUT,
+            "stencil closed: no solution of closure and linear exactness was found; after %d iterations "
+            "for %zu particles a residual of %.1e of a face is left, and at most %.0e is accepted. Either "
+            "there is none (few neighbours, particles moved far: choose a larger support or a smaller "
+            "perturb), or iterations do not get there (a long lattice, or one whose particles are moved "
+            "by next to nothing: choose a smaller n, or perturb = 0.15)",
+            work->iterations, work->cloud->count, worst, acceptable);
     }
     return ok;
 }

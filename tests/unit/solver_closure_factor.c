@@ -1,5 +1,6 @@
 /* The factor of a closed stencil's equation: a tree that holds every particle once, solutions that solve the equation,
  * the same bytes for any number of threads and on both wide paths, and none where it would cost too much. */
+#include "solver/stencil.h"
 #include "tests/unit/closures.h"
 
 #include <math.h>
@@ -154,6 +155,27 @@ static void not_made(void)
     close_system(&of);
 }
 
+/* A lattice of so many spacings by eight, and the error if it has no closed stencil. */
+static bool long_lattice(int spacings, struct solver_error *error)
+{
+    struct solver_box box = {.dim = 2, .spacing = 0.05, .upper = {0.05 * spacings, 0.4}};
+    struct solver_cloud *cloud = clouds_make(&box);
+    struct solver_stencil *stencil = NULL;
+    bool ok = solver_stencil_create(solver_stencil_find("closed"), cloud, 2.0, &stencil, error);
+    solver_stencil_free(stencil);
+    solver_cloud_free(cloud);
+    return ok;
+}
+
+/* In 2D the factor serves lattices on which iterations do not get there; where it does not, either, that is said. */
+static void long_lattices(void)
+{
+    struct solver_error error;
+    CU_ASSERT(long_lattice(590, &error));
+    CU_ASSERT_FALSE(long_lattice(900, &error));
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "or iterations do not get there (a long lattice"));
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -161,6 +183,7 @@ int main(void)
         {"solutions", solutions},
         {"same bytes for 1 and 3 threads and on both wide paths", same_bytes},
         {"none where it costs too much", not_made},
+        {"long lattices", long_lattices},
     };
     return unit_main("solver closure factor", tests, sizeof tests / sizeof *tests);
 }
