@@ -97,7 +97,8 @@ static inline bool near(double value, double expected, double tolerance)
     return close;
 }
 
-/* Passes its own self-check with each of the settings; of many, the environment's UNIT_FEW takes the first and the last. */
+/* Passes its own self-check with each of the settings; of many, the environment's UNIT_FEW takes the first and the
+ * last. */
 static inline void holds_with_each(const struct oracle_kind *kind, const struct setting setting[][SETTINGS],
                                    size_t count)
 {
