@@ -1,4 +1,3 @@
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 # The allocator of test_solver_cost is watched: the linker puts the test's functions in front of it.
 foreach(function aligned_alloc malloc calloc realloc free)

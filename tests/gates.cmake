@@ -1,7 +1,6 @@
 # The scene's own studies, held to what each configuration must reach. Reports lie in BUILD/gates/NAME. To measure
 # anew after a change of the scheme: ctest -L gate -V | grep measured
 include(${CMAKE_CURRENT_LIST_DIR}/scenes.cmake)
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(gate ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/gate.py)
 set(rk2 --set integrator=tvd-rk2 --set cfl=0.3)
 

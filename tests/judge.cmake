@@ -1,6 +1,5 @@
 # The judge, with results that stand for another solver's, right and wrong, and with files that are none.
 include(${CMAKE_CURRENT_LIST_DIR}/system_python.cmake)
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_executable(judge_sample ${CMAKE_CURRENT_SOURCE_DIR}/judge_sample.c)
 target_link_libraries(judge_sample PRIVATE assay_verify)
 set(judged ${CMAKE_BINARY_DIR}/judge_samples)

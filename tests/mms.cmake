@@ -1,9 +1,9 @@
 # Manufactured solutions: every combination that claims an order has it, and what is told wrongly on purpose is noticed.
-assay_test(mms-orders LABELS mms gate TIMEOUT 600 CORES ${cores} COMMAND $<TARGET_FILE:assay> verify mms claims
+assay_test(mms-orders LABELS mms gate TIMEOUT 600 COMMAND $<TARGET_FILE:assay> verify mms claims
   --out mms/orders --json mms/orders.json)
 # What claims none runs too, and is told.
 assay_test(mms-all LABELS mms gate slow TIMEOUT 900 CORES ${cores} COMMAND $<TARGET_FILE:assay> verify mms --out mms/all)
-assay_test(mms-mutations LABELS mms mustfail TIMEOUT 600 CORES ${cores} COMMAND $<TARGET_FILE:assay> verify --mutations)
+assay_test(mms-mutations LABELS mms mustfail TIMEOUT 600 COMMAND $<TARGET_FILE:assay> verify --mutations)
 # One scene of each family, as a user runs it.
 foreach(scene manufactured manufactured-isochoric manufactured-waves manufactured-flow)
   assay_test(gate-${scene} LABELS mms gate COMMAND $<TARGET_FILE:assay> verify ${scene} --out gates/${scene})

@@ -1,6 +1,5 @@
 # What is broken on purpose must be caught by the gate meant for it, and by exit code 1.
 include(${CMAKE_CURRENT_LIST_DIR}/scenes.cmake)
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(mustfail ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/mustfail.py)
 # One thread each: ctest runs as many of them as there are cores.
 set(quick_sbp4 ${quick_scene} --levels 8,16 --set threads=1)

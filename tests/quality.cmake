@@ -7,16 +7,10 @@ assay_test(quality-forbidden LABELS unit COMMAND ${quality}/forbidden.sh ${CMAKE
 assay_test(quality-mustfail LABELS mustfail COMMAND ${quality}/mustfail.sh ${CMAKE_SOURCE_DIR})
 
 # Builds of their own, kept between runs. The one with clang serves the analyser, as list of what to look at, valgrind,
-# and the comparison of compilers; all paths of the hot loops are in it. Linking takes half as long with gold.
-set(linker "")
-find_program(ASSAY_GOLD ld.gold)
-mark_as_advanced(ASSAY_GOLD)
-if(ASSAY_GOLD)
-  set(linker -DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=gold)
-endif()
+# and the comparison of compilers; all paths of the hot loops are in it.
 assay_test(quality-clang LABELS quality TIMEOUT 1800 CORES ${cores}
   COMMAND ${quality}/build.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/clang debug -DCMAKE_C_COMPILER=clang-14
-  -DASSAY_ARCH= ${linker} "-DASSAY_DEBUG=-Og -g1 -gdwarf-4") # lines alone, for memcheck's reports
+  -DASSAY_ARCH= "-DASSAY_DEBUG=-Og -g1 -gdwarf-4") # lines alone, for memcheck's reports
 assay_test(quality-tidy LABELS quality TIMEOUT 1800 CORES ${cores}
   COMMAND ${quality}/tidy.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/clang)
 assay_test(quality-valgrind LABELS quality TIMEOUT 1800 CORES ${cores}
@@ -25,7 +19,7 @@ set_tests_properties(quality-clang PROPERTIES FIXTURES_SETUP clang_build)
 set_tests_properties(quality-tidy quality-valgrind PROPERTIES FIXTURES_REQUIRED clang_build)
 
 assay_test(quality-sanitize LABELS quality TIMEOUT 1800 CORES ${cores} UNTRAPPED "its tests say for themselves"
-  COMMAND ${quality}/sanitize.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/sanitize ${linker})
+  COMMAND ${quality}/sanitize.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/sanitize)
 
 # Another compiler, and no optimisation, against the stored records.
 assay_test(quality-compilers LABELS quality TIMEOUT 600 CORES ${cores} UNTRAPPED "clang computes what it then discards"

@@ -1,5 +1,4 @@
 # Runs that are stopped, killed, or out of disk, and gone on with.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 foreach(test killed stopped twice burst over unasked full refused study)
   assay_test(restart-${test} LABELS unit COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/restart.py ${test}
     $<TARGET_FILE:assay> test-out/restart-${test})

@@ -1,5 +1,4 @@
 # What accuracy costs: whole studies of runs that take milliseconds, and runs that are picked by them.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(trade ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/trade.py)
 set(cli sh ${CMAKE_CURRENT_LIST_DIR}/cli.sh)
 set(assay $<TARGET_FILE:assay>)

@@ -1,7 +1,6 @@
 # The command line from outside: exit codes, messages, files.
 set(cli sh ${CMAKE_CURRENT_SOURCE_DIR}/cli.sh)
 set(assay $<TARGET_FILE:assay>)
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 include(${CMAKE_CURRENT_LIST_DIR}/scenes.cmake)
 
 # What was typed or given is wrong: exit code 2, and the message says what.

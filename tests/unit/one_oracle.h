@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct setting {
@@ -96,11 +97,13 @@ static inline bool near(double value, double expected, double tolerance)
     return close;
 }
 
-/* Passes its own self-check with each of the settings. */
+/* Passes its own self-check with each of the settings; of many, the environment's UNIT_FEW takes the first and the
+ * last. */
 static inline void holds_with_each(const struct oracle_kind *kind, const struct setting setting[][SETTINGS],
                                    size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
+    size_t step = getenv("UNIT_FEW") != NULL && count > 2 ? count - 1 : 1;
+    for (size_t i = 0; i < count; i += step) {
         struct oracle *oracle = create_with(kind, setting[i]);
         struct oracle_check line[ORACLE_LAWS];
         size_t lines = 0;

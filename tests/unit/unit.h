@@ -1,6 +1,7 @@
 /* Runs one CUnit suite and turns the result into an exit code. A suite without assertions fails. Where a checker
  * is too slow for all tests, the environment's UNIT_ONLY names those to run, and UNIT_WITHOUT those to leave out, with
- * | between names; a name that no test has fails. */
+ * | between names; a name that no test has fails. With UNIT_FEW tests that go through a list of settings may take only
+ * some of them (one_oracle.h). */
 #ifndef TESTS_UNIT_H
 #define TESTS_UNIT_H
 
