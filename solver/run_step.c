@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <omp.h>
+#include <stdio.h>
 #include <string.h>
 #include <time.h>
 
@@ -25,10 +26,21 @@ static bool is_finite(const struct solver_run *run, size_t a)
     return isfinite(square);
 }
 
+enum { ADVICE = 160 };
+
+/* What to try when a run breaks down; to evolve more only where a scene does not. */
+static const char *advice(const struct solver_run *run, char text[ADVICE])
+{
+    bool more = run->scheme->stencil && run->scene->evolved != SOLVER_PFHJ;
+    (void)snprintf(text, ADVICE, "%s%s", run->scheme->advice, more ? ", or evolved = \"pFHJ\"" : "");
+    return text;
+}
+
 bool solver_run_check(struct solver_run *run, struct solver_error *error)
 {
     size_t count = run->cloud->count;
     size_t broken = count;
+    char text[ADVICE];
 #pragma omp parallel for schedule(static) reduction(min : broken)
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
         struct solver_piece at = solver_piece_at(piece, count);
@@ -43,7 +55,7 @@ bool solver_run_check(struct solver_run *run, struct solver_error *error)
         error, SOLVER_BROKE_DOWN, "step %zu, t = %.6g s: particle %zu at X = (%g, %g, %g) m: %s. Try %s", run->step,
         run->time, broken, X[0], run->cloud->dim > 1 ? X[1] : 0.0, run->cloud->dim > 2 ? X[2] : 0.0,
         is_finite(run, broken) ? run->scheme->complaint(run->system, broken) : "linear momentum p is not finite",
-        run->scheme->advice);
+        advice(run, text));
 }
 
 static double largest_step(const struct solver_run *run)
@@ -57,8 +69,9 @@ static void say_when(const struct solver_run *run, double dt, struct solver_erro
 {
     if (error->code == SOLVER_BROKE_DOWN) {
         struct solver_error found = *error;
+        char text[ADVICE];
         (void)solver_fail(error, SOLVER_BROKE_DOWN, "step %zu, t = %.6g s: %s. Try %s", run->step + 1, run->time + dt,
-                          found.text, run->scheme->advice);
+                          found.text, advice(run, text));
     }
 }
 
@@ -116,11 +129,12 @@ static bool check_energy(const struct solver_run *run, struct solver_error *erro
     if (energy <= 10.0 * supply || energy <= 0.0) {
         return true;
     }
+    char text[ADVICE];
     return solver_fail(
         error, SOLVER_BROKE_DOWN,
         "step %zu, t = %.6g s: kinetic and strain energy are %.3g J, and only %.3g J were ever put in: the "
         "run is unstable. Try %s (cfl is %g)",
-        run->step, run->time, energy, supply, run->scheme->advice, run->scene->cfl);
+        run->step, run->time, energy, supply, advice(run, text), run->scene->cfl);
 }
 
 bool solver_run_steps(struct solver_run *run, size_t steps, struct solver_error *error)

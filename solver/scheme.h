@@ -68,7 +68,7 @@ struct solver_scheme {
     bool deformation;                          /* it knows F, H and P */
     bool stencil; /* it stands on the scene's stencil: keys evolved, stencil, reconstruction and volume_flux are for it
                    */
-    const char *advice; /* what to try when a particle breaks */
+    const char *advice; /* what to try when a particle breaks, beside evolving more */
     struct solver_scheme_claims claims;
 
     /* Geometry and terms, for the scene's keys. The fields come later. */

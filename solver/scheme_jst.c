@@ -222,7 +222,7 @@ static const struct solver_scheme_choice choices[] = {
 const struct solver_scheme solver_scheme_jst = {
     .name = "jst",
     .summary = "total-Lagrangian mixed method with harmonic and biharmonic dissipation (004_0c0448173ed5e9bd.txt)",
-    .advice = "a smaller cfl, another jst.kappa4, a finer n, or evolved = \"pFHJ\"",
+    .advice = "a smaller cfl, a finer n or another jst.kappa4",
     .choice = choices,
     .claims = {.affine = "", .turning = "", .momentum = "", .angular = "angular_momentum=projected"},
     .create = create,

@@ -473,7 +473,7 @@ static const struct solver_scheme_choice choices[] = {
 const struct solver_scheme solver_scheme_upwind = {
     .name = "upwind",
     .summary = "total-Lagrangian mixed method with Riemann dissipation (000_e9ec29e1bde7947d.txt)",
-    .advice = "a smaller cfl, a finer n, reconstruction = \"least-squares\", or evolved = \"pFHJ\"",
+    .advice = "a smaller cfl, a finer n or reconstruction = \"least-squares\"",
     .choice = choices,
     .claims = {.affine = "", .turning = "", .momentum = "", .angular = "angular_momentum=projected"},
     .create = create,

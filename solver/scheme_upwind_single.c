@@ -386,8 +386,7 @@ const struct solver_scheme solver_scheme_upwind_single = {
     .summary = "upwind with its state in single precision",
     .deformation = true,
     .stencil = true,
-    .advice =
-        "a smaller cfl, a finer n, reconstruction = \"least-squares\", evolved = \"pFHJ\", or precision = \"double\"",
+    .advice = "a smaller cfl, a finer n, reconstruction = \"least-squares\" or precision = \"double\"",
     .claims = {.affine = "", .turning = "", .momentum = ""},
     .create = create,
     .destroy = solver_upwind_destroy,

@@ -70,7 +70,10 @@ static void break_down(const char *more, const char *settings, const char *field
         printf("\n    %s: \"%s\" does not name %s", settings, sample.error.text, field);
     }
     CU_ASSERT(named);
+    const struct solver_scene *scene = sample.scene;
+    bool could_evolve_more = strcmp(scene->scheme, "ulsph") != 0 && scene->evolved != SOLVER_PFHJ;
     CU_ASSERT_PTR_NOT_NULL(strstr(sample.error.text, "Try "));
+    CU_ASSERT_EQUAL(strstr(sample.error.text, "evolved = \"pFHJ\"") != NULL, could_evolve_more);
     check_output(&sample);
     struct solver_error again;
     CU_ASSERT_FALSE(solver_run_steps(sample.run, 1, &again));
