@@ -19,3 +19,5 @@ foreach(program test_solver_stencil_runs mutant_abreast-by-row)
 endforeach()
 # And of solver_stencil_find_ranks, with ranks and without.
 target_link_options(test_solver_stencil_ranks PRIVATE -Wl,--wrap=solver_stencil_find_ranks)
+# And of aligned_alloc, which then may have no memory.
+target_link_options(test_solver_closure_memory PRIVATE -Wl,--wrap=aligned_alloc)

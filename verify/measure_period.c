@@ -95,21 +95,24 @@ static double fit(const struct motion *motion)
 static bool find_motion(size_t count, const double *time, const double *displacement, struct motion *motion,
                         const char **why)
 {
-    double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; i < count; i++) {
+    if (count < 2 * PARAMETERS) {
+        *why = "the history has fewer than 10 rows; set history or t_end higher, or cfl lower";
+        return false;
+    }
+    double low = displacement[0], high = displacement[0];
+    for (size_t i = 1; i < count; i++) {
         low = fmin(low, displacement[i]);
         high = fmax(high, displacement[i]);
     }
     *motion = (struct motion){.count = count,
                               .time = time,
                               .displacement = displacement,
-                              .begin = count > 0 ? time[0] : 0,
+                              .begin = time[0],
                               .middle = (low + high) / 2,
                               .size = (high - low) / 2};
-    *why = count < 2 * PARAMETERS    ? "the history has fewer than 10 rows; set history or t_end higher, or cfl lower"
-           : !isfinite(motion->size) ? "the probe's motion is no number"
-           : !(motion->size > 0)     ? "the probe does not move"
-                                     : NULL;
+    *why = !isfinite(motion->size) ? "the probe's motion is no number"
+           : !(motion->size > 0)   ? "the probe does not move"
+                                   : NULL;
     return *why == NULL;
 }
 

@@ -21,7 +21,6 @@ declare -A skipped=(
   [test_solver_stencil_round]="factorised stencils of balls: minutes"
   [test_verify_checkpoint]="runs of every scene, which test_solver_checkpoint makes of small ones: minutes"
   [test_solver_fields]="thousands of runs of test_solver_run, poisoned: a minute"
-  [test_solver_closure_memory]="its allocations fail in a function of its own, and valgrind puts another in its place"
   [test_verify_trap]="valgrind 3.19 knows no floating-point traps"
   [test_golden_solved]="the runs of test_golden_paths, of other bodies"
   [test_solver_run_momentum]="a thousand steps of each run of test_solver_run: 90 s"

@@ -1,5 +1,5 @@
 /* Where there is no memory for the factor of a closed stencil, iterations make the stencil; where there is none for
- * them either, it is an error. */
+ * them either, it is an error. The linker puts the function __wrap_ in front of the library's (tests/share.cmake). */
 #include "solver/stencil.h"
 #include "tests/unit/clouds.h"
 #include "tests/unit/unit.h"
@@ -10,16 +10,19 @@
 
 static size_t refused_from = SIZE_MAX, refusals; /* requests of so many bytes get nothing */
 
-/* In front of the library's. */
-void *aligned_alloc(size_t alignment, size_t bytes)
+// NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
+void *__real_aligned_alloc(size_t alignment, size_t bytes);
+void *__wrap_aligned_alloc(size_t alignment, size_t bytes);
+
+void *__wrap_aligned_alloc(size_t alignment, size_t bytes)
 {
-    void *out = NULL;
     if (bytes >= refused_from) {
         refusals++;
         return NULL;
     }
-    return posix_memalign(&out, alignment, bytes) == 0 ? out : NULL;
+    return __real_aligned_alloc(alignment, bytes);
 }
+// NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp)
 
 static bool build(const struct solver_cloud *cloud, size_t most, struct solver_stencil **out,
                   struct solver_error *error)
