@@ -11,9 +11,8 @@
 enum { BLOCK = 16, PIECE = 32, DEEP = 6 };
 /* Added to M's diagonal, relative to it: quadratic multipliers have no energy, and on lattices others neither.
  * Round-off of the factor is less, and what smooth multipliers have on clouds of 300 spacings is more: it falls like
- * the sixth power of the length. In 2D it
- * serves longer ones as well: a solution there leaves up to nine tenths of the last one's residuals, and on lattices
- * iterations end before they get there. */
+ * the sixth power of the length. In 2D it serves longer ones as well: a solution there leaves up to nine tenths of the
+ * last one's residuals, and on lattices iterations end before they get there. */
 static const double shift = 3e-15, longest[] = {300.0, 600.0, 300.0};
 /* Multiply-adds for a particle. Measured: beyond, iterations take less time. */
 static const double most_operations = 9e5;

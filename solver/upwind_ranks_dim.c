@@ -380,25 +380,23 @@ static void turned_rates(const struct solver_upwind *work, size_t begin, size_t 
     hand.z = impedances(work, constants, work->evolves_J);
     for_ranks(work, begin, end, rates_of_part, &hand, others);
 }
-#elif DIM == 3
-static void turned_rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
-{
-    others(work, begin, end);
-}
 #endif
 
 #if DIM > 1
 static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
 {
-    bool ranks = has_ranks(work) && work->reconstruct && !work->whole_jump;
+    bool ranks = has_ranks(work) && work->reconstruct && !work->whole_jump && (DIM == 2 || work->frozen);
     if (!ranks || work->lost != NULL) { /* the others note that; rates do not depend on who asks */
         others(work, begin, end);
     }
     if (ranks && work->frozen) {
         for_ranks(work, begin, end, linear_rates_of_part, NULL, others);
-    } else if (ranks) {
+    }
+#if DIM == 2
+    if (ranks && !work->frozen) {
         turned_rates(work, begin, end, others);
     }
+#endif
 }
 #else
 static void rates(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others)
