@@ -17,14 +17,14 @@ struct either_side {
 
 static inline __attribute__((always_inline)) struct either_side either_side(const struct reach *reach, int I, size_t a)
 {
-    double own = 2.0 * ((reach->back[I] == 0) - (reach->ahead[I] == 0));
+    int own = 2 * ((reach->back[I] == 0) - (reach->ahead[I] == 0));
     return (struct either_side){.at = {a},
                                 .back = {a - reach->back[I]},
                                 .ahead = {a + reach->ahead[I]},
                                 .weight = wide_of(reach->weight[I]),
                                 .half_back = wide_of(reach->half[I][0]),
                                 .half_ahead = wide_of(reach->half[I][1]),
-                                .own = wide_of(own)};
+                                .own = wide_of((real)own)};
 }
 
 /* The jump to the next particle less that from the one before, reconstructed. */
@@ -55,10 +55,10 @@ static inline __attribute__((always_inline)) wide turns_of_pressure(const struct
 static inline __attribute__((always_inline)) void linear_rates_as(const struct solver_upwind *work, size_t begin,
                                                                   size_t end, const struct reach *reach, bool volume)
 {
-    wide per_rho = wide_of(1.0 / work->constants->rho);
-    wide per_z = wide_of(1.0 / work->constants->zp);
-    wide z_s = wide_of(work->constants->zs);
-    wide z_p = wide_of(work->constants->zp);
+    wide per_rho = wide_of((real)(1.0 / work->constants->rho));
+    wide per_z = wide_of((real)(1.0 / work->constants->zp));
+    wide z_s = wide_of((real)work->constants->zs);
+    wide z_p = wide_of((real)work->constants->zp);
     for (size_t k = 0; k < LANES * (end - begin); k = next_block(k, LANES * (end - begin))) {
         size_t at[PLACES] = {begin + k / LANES};
         wide sum = {0};

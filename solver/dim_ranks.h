@@ -7,8 +7,9 @@
 #include "solver/upwind_ranks.h"
 
 #if DIM > 1
-/* Fewer particles than LEAST go with the others: on all paths the same, as bits differ by round-off. */
-enum { LEAST = 10, PAD = 8 };
+/* Fewer particles than LEAST go with the others: on all paths the same, as bits differ by round-off. Between those at
+ * the ends as many are left as the widest register has lanes, PAD, but for space in single precision. */
+enum { PAD = 64 / sizeof(real), LEAST = DIM == 3 ? 10 : PAD + 2 };
 
 static inline wide load_wide(const real *from)
 {
@@ -69,7 +70,7 @@ static bool has_ranks(const struct solver_upwind *work)
  * of it in m, and the weights of their differences. */
 struct reach {
     size_t back[DIM], ahead[DIM];
-    double weight[DIM], half[DIM][2];
+    real weight[DIM], half[DIM][2];
 };
 
 static inline __attribute__((always_inline)) struct reach reach_of(const struct solver_rank *rank, int kind)
@@ -79,9 +80,9 @@ static inline __attribute__((always_inline)) struct reach reach_of(const struct 
         bool along = I == rank->axis;
         reach.back[I] = along && kind == SOLVER_RANK_FIRST ? 0 : rank->back[I];
         reach.ahead[I] = along && kind == SOLVER_RANK_LAST ? 0 : rank->ahead[I];
-        reach.weight[I] = rank->weight[I][kind];
-        reach.half[I][0] = along && kind == SOLVER_RANK_FIRST ? 0.0 : rank->half[I][0];
-        reach.half[I][1] = along && kind == SOLVER_RANK_LAST ? 0.0 : rank->half[I][1];
+        reach.weight[I] = (real)rank->weight[I][kind];
+        reach.half[I][0] = along && kind == SOLVER_RANK_FIRST ? 0 : (real)rank->half[I][0];
+        reach.half[I][1] = along && kind == SOLVER_RANK_LAST ? 0 : (real)rank->half[I][1];
     }
     return reach;
 }

@@ -64,6 +64,8 @@ static bool create(const struct solver_body *body, void **out, struct solver_err
                                                  .shared = base->shared,
                                                  .along = base->along,
                                                  .abreast = base->abreast,
+                                                 .rank_count = base->rank_count,
+                                                 .rank = base->rank,
                                                  .narrow = base->narrow,
                                                  .unit = base->unit,
                                                  .row_sum = base->row_sum,

@@ -194,11 +194,7 @@ static void gradients(const struct solver_upwind *work, size_t begin, size_t end
     bool pressure = own && work->pressure_gradient != NULL;
     bool narrow = work->narrow != NULL;
     if (aligns_gradients(work)) {
-#ifdef SINGLE
-        gradients_on_lines(work, begin, end);
-#else
         DIM_NAME(solver_ranks).gradients(work, begin, end, gradients_on_lines);
-#endif
     } else if (pressure && work->stride != 0) { /* rare: not worth a loop each */
         gradients_with(work, begin, end, true, narrow, true);
     } else if (narrow && pressure) {
@@ -360,11 +356,7 @@ static void rates(const struct solver_upwind *work, size_t begin, size_t end)
                           .composite = work->stride != 0,
                           .narrow = work->narrow != NULL};
     if (aligns_rates(work)) {
-#ifdef SINGLE
-        rates_on_lines(work, begin, end);
-#else
         DIM_NAME(solver_ranks).rates(work, begin, end, rates_on_lines);
-#endif
     } else if (!is_plain(work)) { /* rare: not worth a loop each */
         rates_with(work, begin, end, terms);
     } else {

@@ -11,4 +11,11 @@ struct solver_rank_loops {
     void (*rates)(const struct solver_upwind *work, size_t begin, size_t end, solver_rank_others *others);
 };
 
+typedef void solver_rank_single_others(const struct solver_upwind_single *work, size_t begin, size_t end);
+struct solver_rank_single_loops {
+    void (*gradients)(const struct solver_upwind_single *work, size_t begin, size_t end,
+                      solver_rank_single_others *others);
+    void (*rates)(const struct solver_upwind_single *work, size_t begin, size_t end, solver_rank_single_others *others);
+};
+
 #endif

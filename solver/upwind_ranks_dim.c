@@ -124,20 +124,31 @@ static inline wide sum(const real *a, const real *b, int which)
 }
 
 /* As many as a register takes: what add_along of dim_aligned.h does. */
-static inline __attribute__((always_inline)) void add_flux(const struct ends *at, bool volume, bool stiffens,
-                                                           const struct impedances *z, real *to)
+static inline __attribute__((always_inline)) void add_flux(const struct ends *at, const real axis[2], bool volume,
+                                                           bool stiffens, const struct impedances *z, real *to)
 {
-    wide back = (real)-0.5 * difference(at->a_I, at->b_I, OF_X);
+    wide distance = difference(at->a_I, at->b_I, OF_X);
+    wide back = (real)-0.5 * distance;
     wide jump[2];
     wide along[2];
     for (int i = 0; i < 2; i++) {
         jump[i] = difference(at->a, at->b, OF_V + i) + back * sum(at->a_I, at->b_I, OF_SLOPE + i);
         along[i] = difference(at->a, at->b, OF_x + i);
+        if (IN_SINGLE) { /* what is stored is displacements */
+            along[i] += wide_of(axis[i]) * distance;
+        }
     }
     wide square = along[0] * along[0] + along[1] * along[1];
     struct turned turned = {.soft = square};
     if (volume) {
-        wide area = along[0] * sum(at->a_I, at->b_I, OF_COFACTOR) + along[1] * sum(at->a_I, at->b_I, OF_COFACTOR + 1);
+        wide face[2]; /* twice */
+        for (int i = 0; i < 2; i++) {
+            face[i] = sum(at->a_I, at->b_I, OF_COFACTOR + i);
+            if (IN_SINGLE) {
+                face[i] += wide_of(2 * axis[i]);
+            }
+        }
+        wide area = along[0] * face[0] + along[1] * face[1];
         turned = turned_of(square, (real)0.5 * area, join_each(z->shear), join_each(z->bulk),
                            stiffens ? load_wide(at->a + OF_STIFFNESS * SPAN) : square,
                            stiffens ? load_wide(at->b + OF_STIFFNESS * SPAN) : square, stiffens);
@@ -158,6 +169,7 @@ static inline __attribute__((always_inline)) void add_fluxes_as(const struct sid
 {
     struct impedances z = *of;
     int of_axis = OF_AXES + pairs->I * AXIS_PLANES;
+    const real axis[2] = {pairs->I == 0, pairs->I == 1};
     struct ends from = {.a = pairs->of_a->of[0] + pairs->a,
                         .b = pairs->of_b->of[0] + pairs->b,
                         .a_I = pairs->of_a->of[of_axis] + pairs->a,
@@ -165,7 +177,7 @@ static inline __attribute__((always_inline)) void add_fluxes_as(const struct sid
     real *to = pairs->to->of[0] + pairs->a;
     for (size_t k = 0; k < pairs->count; k = next_block(k, pairs->count)) {
         struct ends at = {from.a + k, from.b + k, from.a_I + k, from.b_I + k};
-        add_flux(&at, volume, stiffens, &z, to + k);
+        add_flux(&at, axis, volume, stiffens, &z, to + k);
     }
 }
 
@@ -208,10 +220,10 @@ static void set_weights(const struct part *part, struct hand *hand)
         int axis = part->rank->axis;
         const double *weight = part->rank->weight[across ? 1 - axis : axis];
         for (size_t k = 0; k < count; k = next_block(k, count)) {
-            store_wide(to + k, wide_of(weight[SOLVER_RANK_INSIDE]));
+            store_wide(to + k, wide_of((real)weight[SOLVER_RANK_INSIDE]));
         }
-        to[0] = part->left > 0 ? to[0] : weight[SOLVER_RANK_FIRST];
-        to[count - 1] = part->right > 0 ? to[count - 1] : weight[SOLVER_RANK_LAST];
+        to[0] = part->left > 0 ? to[0] : (real)weight[SOLVER_RANK_FIRST];
+        to[count - 1] = part->right > 0 ? to[count - 1] : (real)weight[SOLVER_RANK_LAST];
     }
 }
 
@@ -307,7 +319,11 @@ static inline __attribute__((always_inline)) wide compression_at(const struct pl
     wide sum = {0};
     for (int column = 0; column < 4; column++) {
         int I = OF_AXES + column / 2 * AXIS_PLANES + column % 2;
-        sum += load_wide(own->of[I + OF_COFACTOR] + i) * load_wide(own->of[I + OF_SLOPE] + i);
+        wide cofactor = load_wide(own->of[I + OF_COFACTOR] + i);
+        if (IN_SINGLE && column / 2 == column % 2) {
+            cofactor += wide_of(1);
+        }
+        sum += cofactor * load_wide(own->of[I + OF_SLOPE] + i);
     }
     return sum;
 }
@@ -315,8 +331,8 @@ static inline __attribute__((always_inline)) wide compression_at(const struct pl
 static void put_rates(const struct part *part, const struct hand *hand)
 {
     const struct solver_upwind *work = hand->work;
-    wide per_rho = wide_of(1.0 / work->constants->rho);
-    wide per_z = wide_of(1.0 / work->constants->zp);
+    wide per_rho = wide_of((real)(1.0 / work->constants->rho));
+    wide per_z = wide_of((real)(1.0 / work->constants->zp));
     size_t count = part->end - part->begin;
     for (size_t k = 0; k < count; k = next_block(k, count)) {
         size_t i = part->at + k;
