@@ -11,9 +11,9 @@
 /* Where particles of a group are anywhere, in space 512 bits for two of them were no faster than 256 for one: what is
  * saved of arithmetic, putting the vectors of two neighbours together takes. Particles that are abreast (stencil.h)
  * have consecutive numbers, and so have their neighbours: a load brings a whole register, and one number stands for the
- * places of all. */
+ * places of all. HALF_REGISTERS are no wider than 256 bits. */
 #define LANES_OF_VEC (DIM == 3 ? 4 : DIM)
-#ifdef __AVX512F__
+#if defined __AVX512F__ && !defined HALF_REGISTERS
 #define REGISTER_BYTES 64
 #elif defined __AVX__
 #define REGISTER_BYTES 32

@@ -57,28 +57,12 @@ static inline __attribute__((always_inline)) void gradients_of_pressure(const st
     }
 }
 
-/* Fewer than a register has lanes. */
-static void gradients_of_pressure_each(const struct solver_upwind *work, size_t begin, size_t end,
-                                       const struct reach *reach)
-{
-    for (size_t a = begin; a < end; a++) {
-        vec of = {0};
-        for (int I = 0; I < DIM; I++) {
-            real difference = work->pressure[a + reach->ahead[I]] - work->pressure[a - reach->back[I]];
-            of[I] = reach->weight[I] * difference;
-        }
-        store(work->pressure_gradient + a * LANES, of);
-    }
-}
-
 static void gradients_of_part(const struct solver_upwind *work, const struct part *part, void *none)
 {
     (void)none;
     by_reach(work, part, GROUP, gradients_of_v);
-    if (work->pressure_gradient != NULL && part->end - part->begin >= WIDTH + 2) {
+    if (work->pressure_gradient != NULL) {
         by_reach(work, part, WIDTH, gradients_of_pressure);
-    } else if (work->pressure_gradient != NULL) {
-        by_reach(work, part, 1, gradients_of_pressure_each);
     }
 }
 

@@ -8,8 +8,9 @@
 
 #if DIM > 1
 /* Fewer particles than LEAST go with the others: on all paths the same, as bits differ by round-off. Between those at
- * the ends as many are left as the widest register has lanes, PAD, but for space in single precision. */
-enum { PAD = 64 / sizeof(real), LEAST = DIM == 3 ? 10 : PAD + 2 };
+ * the ends there are then as many as a register has lanes. PAD of them fill the widest. */
+enum { PAD = 64 / sizeof(real), LEAST = (DIM == 2 ? PAD : 8) + 2 };
+_Static_assert(LEAST >= WIDTH + 2, "a register may hold more than one part");
 
 static inline wide load_wide(const real *from)
 {

@@ -71,8 +71,8 @@ static bool make_stencil(struct solver_upwind_system *system, const struct solve
     const struct solver_cloud *cloud = part->symmetry != NULL ? part->symmetry->whole : part;
     bool least_squares = strcmp(scene->reconstruction, "least-squares") == 0;
     bool in_single = strcmp(scene->precision, "single") == 0;
-    bool runs = align && (scene->dim < 3 || in_single);            /* else loops take none: upwind_abreast_dim.c */
-    bool ranks = align && system->body->stride == 0; /* else loops take none: upwind_ranks_dim.c */
+    bool runs = align && (scene->dim < 3 || in_single); /* else loops take none: upwind_abreast_dim.c */
+    bool ranks = align && system->body->stride == 0;    /* else loops take none: upwind_ranks_dim.c */
     struct solver_stencil **stencil = &system->stencil;
     if (!solver_stencil_create(builder, cloud, scene->support, stencil, error) ||
         (least_squares && !solver_stencil_add_least_squares(*stencil, cloud, error)) ||
