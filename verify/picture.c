@@ -228,12 +228,26 @@ static bool draw_surface(const struct solver_record *record, const struct solver
     return drawn || solver_fail(error, SOLVER_BAD_INPUT, "the picture cannot be drawn: %s", why);
 }
 
+/* As a paper has it: 8e-05 as 8 x 10^-5. */
+static void spell_time(double t, char out[48])
+{
+    char number[32];
+    (void)snprintf(number, sizeof number, "%.6g", t);
+    const char *power = strchr(number, 'e');
+    if (power == NULL) {
+        (void)snprintf(out, 48, "%s", number);
+    } else {
+        (void)snprintf(out, 48, "%.*s \u00d7 10^%ld", (int)(power - number), number, strtol(power + 1, NULL, 10));
+    }
+}
+
 bool verify_picture_draw(const struct solver_record *record, const struct solver_view *view, const char *title,
                          struct render_image **image, struct solver_error *error)
 {
     const char *unit = "";
     char full_title[SOLVER_TEXT + 128];
     char magnified[64] = "";
+    char time[48];
     struct solver_view used;
     if (!verify_picture_view(record, view, &used, error)) {
         return false;
@@ -241,7 +255,8 @@ bool verify_picture_draw(const struct solver_record *record, const struct solver
     if (used.magnify != 1.0) {
         (void)snprintf(magnified, sizeof magnified, ", displacement \u00d7 %g", used.magnify);
     }
-    (void)snprintf(full_title, sizeof full_title, "%s, t = %.6g s%s", title, record->time, magnified);
+    spell_time(record->time, time);
+    (void)snprintf(full_title, sizeof full_title, "%s, t = %s s%s", title, time, magnified);
     double *position = calloc(record->count, 4 * sizeof *position);
     if (position == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the picture of %zu particles", record->count);
