@@ -150,13 +150,13 @@ bool verify_pick_take(void *context, struct solver_run *run, struct solver_error
 
 /* `why`: the value is no number. */
 static void add_gate(struct verify_gates *gates, const char *name, const char *what, double value, double bound,
-                     const char *why)
+                     const char *unit, const char *why)
 {
     struct verify_gate *gate = &gates->gate[gates->count++];
     *gate = (struct verify_gate){.value = value,
                                  .bound = bound,
                                  .op = "<=",
-                                 .unit = "-",
+                                 .unit = unit,
                                  .why = why,
                                  .pass = verify_gate_judge(value, "<=", bound)};
     (void)snprintf(gate->name, sizeof gate->name, "%.40s%s", name, what);
@@ -176,10 +176,10 @@ bool verify_pick_judge(struct verify_pick *pick, const struct solver_scene *scen
         return false;
     }
     pick->gates = (struct verify_gates){.pass = true};
-    add_gate(&pick->gates, name, "", value.value, pick->bound, value.why);
+    add_gate(&pick->gates, name, "", value.value, pick->bound, value.unit, value.why);
     /* an error of nothing has no size: what is asked for has */
     add_gate(&pick->gates, name, " off the study", fabs(value.value - said) / (said > 0.0 ? said : pick->bound),
-             repeats_to, value.why);
+             repeats_to, "-", value.why);
     return true;
 }
 
