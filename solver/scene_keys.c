@@ -181,7 +181,7 @@ X(REPORT, "balance", FLAG, AT(balance), 0, 0, 0, "", "false", "true or false",  
 X(METHOD, "precision", WORD, AT(precision), 0, 0, 0, "double mixed single", "double", "one of double, mixed, single",                    \
   "mixed keeps pair vectors in single precision, and sums in double; single all fields, and sums of pairs (upwind)")  \
 X(REPORT, "threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
-  "threads; 0: as many as there are cores and the work is worth")                                                     \
+  "threads; 0: as many as there are cores, or OMP_NUM_THREADS allows, and the work is worth")                                                     \
 X(PROBLEM, "initial.from", WORD, AT(initial_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",             \
   "whether formulas or the exact solution give the initial state")                                                     \
 X(PROBLEM, "loads.from", WORD, AT(loads_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",                 \
