@@ -248,7 +248,7 @@ bool verify_picture_draw(const struct solver_record *record, const struct solver
     char full_title[SOLVER_TEXT + 128];
     char magnified[64] = "";
     char time[48];
-    struct solver_view used;
+    struct solver_view used = corner_view;
     if (!verify_picture_view(record, view, &used, error)) {
         return false;
     }

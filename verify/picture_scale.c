@@ -40,6 +40,12 @@ static int bands_of(const double range[2])
     return USUAL;
 }
 
+/* Whether so many steps from a whole one reach from one number to the other. */
+static bool covers(double lower, double upper, double step, int most)
+{
+    return ceil(upper / step - NOISE) - floor(lower / step + NOISE) <= most;
+}
+
 void verify_picture_scale(const double seen[2], double range[2], int *bands)
 {
     if (range[0] < range[1]) {
@@ -60,13 +66,12 @@ void verify_picture_scale(const double seen[2], double range[2], int *bands)
         upper += half;
     }
     const int most = *bands > 0 ? *bands : MOST;
-    bool covered = false;
-    for (double step = round_up((upper - lower) / most); !covered; step = round_up(1.01 * step)) {
-        const double from = floor(lower / step + NOISE);
-        const double count = ceil(upper / step - NOISE) - from;
-        covered = count <= most;
-        *bands = *bands > 0 || !covered ? *bands : (int)count;
-        range[0] = from * step;
-        range[1] = (from + fmax(count, *bands)) * step;
+    double step = round_up((upper - lower) / most);
+    while (!covers(lower, upper, step, most)) {
+        step = round_up(1.01 * step);
     }
+    const double from = floor(lower / step + NOISE);
+    *bands = *bands > 0 ? *bands : (int)(ceil(upper / step - NOISE) - from);
+    range[0] = from * step;
+    range[1] = (from + *bands) * step;
 }
