@@ -2,8 +2,8 @@
  * without traction. In d dimensions (3: ball, 2: cross-section of the cylinder) the displacement is the gradient of
  * -w0(k r) s / k^2 cos(omega t), a pure p-wave:
  *
- *     u = s w1(k r) X cos(omega t),   du_i/dX_j = s (w1 delta_ij - w2 k^2 X_i X_j) cos(omega t),   div u = s w0
- * cos(omega t)
+ *     u = s w1(k r) X cos(omega t),   du_i/dX_j = s (w1 delta_ij - w2 k^2 X_i X_j) cos(omega t),
+ *     div u = s w0 cos(omega t)
  *
  * with omega = k cp and wm(x) = j_m(x) / x^m for the ball, J_m(x) / x^m for the cylinder (up to a factor the function
  * 0F1(d/2 + m; -x^2/4), smooth at the centre), which satisfy w1 = -w0' / x, w2 = -w1' / x, x^2 w2 = d w1 - w0. The

@@ -1,8 +1,8 @@
 /* The swinging cube of 000_e9ec29e1bde7947d.txt section 7.1.1 (there for A = B = C, after eq. 52 of its reference [1]),
  * for any A, B, C. Unit cube, small strains, symmetric faces at 0, skew-symmetric faces at 1, k = pi/2:
  *
- *     u = (a1 s1 c2 c3, a2 c1 s2 c3, a3 c1 c2 s3),   si = sin(k Xi), ci = cos(k Xi),   div u = k (a1 + a2 + a3) c1 c2
- * c3
+ *     u = (a1 s1 c2 c3, a2 c1 s2 c3, a3 c1 c2 s3),   si = sin(k Xi),   ci = cos(k Xi),
+ *     div u = k (a1 + a2 + a3) c1 c2 c3
  *
  * where every component has Laplacian -3 k^2. With m = (A + B + C)/3 the part (m, m, m) is the gradient of
  * -(m/k) c1 c2 c3, a pure p-wave; the rest sums to zero and has no divergence, a pure s-wave. So

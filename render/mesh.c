@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double smooth = 0.766; /* cosine of 40 degrees: a larger angle between neighbours is a crease */
 
@@ -161,6 +162,49 @@ static void keep_edges(const struct edge *side, size_t sides, const double (*fac
     }
 }
 
+/* The end of edge e that is not v. */
+static uint32_t across(const struct render_mesh *mesh, size_t e, uint32_t v)
+{
+    return mesh->edge[e][0] == v ? mesh->edge[e][1] : mesh->edge[e][0];
+}
+
+/* Of an edge that ends in the open at v: whether it and at most one more lead to where edges meet, or end again. Then
+ * it is no feature of the body, but how rough its surface is. `link` is the exclusive or of the edges at a vertex. */
+static bool is_whisker(const struct render_mesh *mesh, const uint8_t *degree, const size_t *link, uint32_t v,
+                       size_t edge[2])
+{
+    edge[0] = edge[1] = link[v];
+    uint32_t end = across(mesh, edge[0], v);
+    if (degree[end] == 2) {
+        edge[1] = link[end] ^ edge[0];
+        end = across(mesh, edge[1], end);
+    }
+    return degree[end] != 2;
+}
+
+/* Leaves out edges that end in the open after one or two. */
+static void drop_whiskers(struct render_mesh *mesh, size_t vertices, uint8_t *degree, size_t *link, bool *dropped)
+{
+    for (size_t e = 0; e < mesh->edge_count; e++)
+        for (int k = 0; k < 2; k++) {
+            uint8_t *at = &degree[mesh->edge[e][k]];
+            *at = *at < 3 ? (uint8_t)(*at + 1) : *at; /* 3: three or more */
+            link[mesh->edge[e][k]] ^= e;
+        }
+    for (uint32_t v = 0; v < vertices; v++) {
+        size_t edge[2];
+        if (degree[v] == 1 && is_whisker(mesh, degree, link, v, edge))
+            dropped[edge[0]] = dropped[edge[1]] = true;
+    }
+    size_t kept = 0;
+    for (size_t e = 0; e < mesh->edge_count; e++)
+        if (!dropped[e]) {
+            memmove(mesh->edge[kept], mesh->edge[e], sizeof mesh->edge[e]);
+            kept++;
+        }
+    mesh->edge_count = kept;
+}
+
 bool render_mesh_build(const struct render_surface *surface, const double eye[3], struct render_mesh *mesh,
                        char why[RENDER_WHY])
 {
@@ -174,7 +218,9 @@ bool render_mesh_build(const struct render_surface *surface, const double eye[3]
     struct edge *side = calloc(quads, 4 * sizeof *side);
     mesh->normal = calloc(quads, sizeof *mesh->normal);
     mesh->edge = calloc(quads, 4 * sizeof *mesh->edge);
-    const bool fits = face && first && list && side && mesh->normal && mesh->edge;
+    uint8_t *degree = calloc(surface->vertex_count + 1, sizeof *degree);
+    bool *dropped = calloc(quads, 4 * sizeof *dropped);
+    const bool fits = face && first && list && side && mesh->normal && mesh->edge && degree && dropped;
     if (fits) {
         for (size_t q = 0; q < quads; q++)
             face_normal(surface, q, face[q]);
@@ -182,7 +228,11 @@ bool render_mesh_build(const struct render_surface *surface, const double eye[3]
         average_normals(surface, (const double(*)[3])face, first, list, mesh->normal);
         mesh->flat = lies_flat((const double(*)[3])face, quads);
         keep_edges(side, list_sides(surface, side), (const double(*)[3])face, eye, mesh);
+        memset(first, 0, (surface->vertex_count + 1) * sizeof *first);
+        drop_whiskers(mesh, surface->vertex_count, degree, first, dropped);
     }
+    free(degree);
+    free(dropped);
     free(face);
     free(first);
     free(list);

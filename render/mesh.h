@@ -18,7 +18,8 @@ enum render_kind render_quad_corners(const uint32_t quad[4], uint32_t corner[4])
 struct render_mesh {
     double (*normal)[4][3]; /* [quad_count] unit normals at the corners, averaged over neighbours across smooth edges */
     size_t edge_count;
-    uint32_t (*edge)[2]; /* [edge_count] rims, creases and, seen from `eye`, silhouettes */
+    uint32_t (*edge)[2]; /* [edge_count] rims, creases and, seen from `eye`, silhouettes; none that end in the open
+                            after one edge or two */
     bool flat;           /* all in one plane: nothing to shade */
 };
 

@@ -1,10 +1,13 @@
 /* The neo-Hookean model of 003_253cac78b077eaad.txt eq. 51, 52,
  *     W = mu/2 (J^(-2/3) F:F - 3) + kappa/2 (J - 1)^2,
  * in two readings for a J that is evolved beside F and drifts from det F by what its dissipation takes:
+ *
  *   neo-hookean             J is det F in the first, isochoric term. P then depends on the drift through kappa alone,
- * and at small strain the model is Hooke's law for every evolved set. neo-hookean-polyconvex  J is the evolved one in
- * both terms: convex in (F, J), but the drift enters P through kappa + mu (swinging cube, sbp2, n = 16: error of
- * P 2.9e-3 instead of 2.3e-3). F:F counts the directions out of the plane. */
+ *                           and at small strain the model is Hooke's law for every evolved set.
+ *   neo-hookean-polyconvex  J is the evolved one in both terms: convex in (F, J), but the drift enters P through
+ *                           kappa + mu (swinging cube, sbp2, n = 16: error of P 2.9e-3 instead of 2.3e-3).
+ *
+ * F:F counts the directions out of the plane. */
 #define WIDE_LOTS
 #include "solver/dim.h"
 #include "solver/dim_flops.h"

@@ -11,13 +11,22 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Cores, or fewer where OMP_NUM_THREADS says so, as every program with OpenMP takes it. */
+static int most_threads(void)
+{
+    const char *asked = getenv("OMP_NUM_THREADS");
+    long wanted = asked != NULL ? strtol(asked, NULL, 10) : 0; /* of a list the first: nothing is nested here */
+    int cores = omp_get_num_procs();
+    return wanted > 0 && wanted < cores ? (int)wanted : cores;
+}
+
 /* What the scene says, else as many threads as there are cores, each with so much work that it outlasts the wait for
  * the others: a particle's share grows fourfold with each dimension, as its neighbours do. */
 static int choose_threads(int wanted, int dim, size_t particles)
 {
     size_t work_per_thread = (size_t)131072 >> (2 * dim);
     size_t worth = particles / work_per_thread;
-    int cores = omp_get_num_procs();
+    int cores = most_threads();
     if (wanted > 0) {
         return wanted;
     }

@@ -173,6 +173,10 @@ bool solver_run_to(struct solver_run *run, double t_end, solver_progress *progre
     double begun = solver_run_clock();
     size_t noted = history_row(run);
     bool ok = true;
+    if (!isgreaterequal(t_end, run->time)) {
+        return solver_fail(error, SOLVER_BAD_INPUT, "t_end: expected a time from now on, %.17g s, got %g s", run->time,
+                           t_end);
+    }
     omp_set_num_threads(run->threads);
     if (run->history.count == 0) {
         ok = solver_run_note(run, error);

@@ -207,8 +207,8 @@ struct solver_probe {
 struct solver_view {
     char
         field[SOLVER_NAME]; /* a scalar of the record: "pressure", "von_mises", "displacement", "displacement_x", ... */
-    double range[2];        /* colour range, in the field's unit */
-    int bands;              /* filled contour bands */
+    double range[2];        /* colour range, in the field's unit; {0, 0}: that of the field */
+    int bands;              /* filled contour bands; 0: as many as round numbers ask for */
     double direction[3];    /* from the body towards the eye */
     double up[3];
     double magnify;  /* displacement shown = magnify * displacement */
@@ -368,6 +368,8 @@ struct solver_scene_key {
     const char *key;
     const char *expects; /* "number > 0 [Pa]", "one of upwind" */
     const char *meaning;
+    const char *preset; /* what it has unless given, as `--set` spells it; "": nothing, or `meaning` says; NULL: it must
+                           be given */
     enum solver_key_says says;
 };
 const struct solver_scene_key *solver_scene_keys(void);

@@ -25,7 +25,10 @@ static void check_view(lua_State *L, const struct solver_view *view)
 {
     const double *d = view->direction, *up = view->up;
     double cross[3] = {d[1] * up[2] - d[2] * up[1], d[2] * up[0] - d[0] * up[2], d[0] * up[1] - d[1] * up[0]};
-    if (!(view->range[0] < view->range[1]))
+    scene_lua_push(L, "view.range");
+    bool given = !lua_isnil(L, -1);
+    lua_pop(L, 1);
+    if (given && !(view->range[0] < view->range[1]))
         scene_refuse(L, "view.range: expected two increasing numbers, got %g and %g", view->range[0], view->range[1]);
     if (cross[0] == 0 && cross[1] == 0 && cross[2] == 0)
         scene_refuse(L, "view.up: expected a direction that is neither zero nor along view.direction");

@@ -85,13 +85,13 @@ X(PROBLEM, "material.law", INDEX, AT(hardening.law), 0, 0, 0, "linear saturation
   "yield stress over plastic strain e: Y + H e, that + (Ys - Y)(1 - exp(-d e)), or Y (1 + e/e0)^m")                    \
 X(PROBLEM, "material.hardening", NUMBER, AT(hardening.modulus), 0, DBL_MAX, 0, "", "0", "number >= 0 [Pa]",                      \
   "H: rise of the yield stress per plastic strain")                                                                    \
-X(PROBLEM, "material.saturation", NUMBER, AT(hardening.saturation), 0, DBL_MAX, 0, "", "0", "number >= yield_stress [Pa]",      \
+X(PROBLEM, "material.saturation", NUMBER, AT(hardening.saturation), 0, DBL_MAX, 0, "", "0", "number >= yield_stress [Pa] with saturation, else 0",\
   "Ys: the yield stress, without H e, that a law of saturation ends at")                                               \
-X(PROBLEM, "material.saturation_rate", NUMBER, AT(hardening.rate), 0, DBL_MAX, 0, "", "0", "number > 0 with saturation",        \
+X(PROBLEM, "material.saturation_rate", NUMBER, AT(hardening.rate), 0, DBL_MAX, 0, "", "0", "number > 0 with saturation, else 0",\
   "d: how fast it gets there")                                                                                         \
-X(PROBLEM, "material.hardening_strain", NUMBER, AT(hardening.strain), 0, DBL_MAX, 0, "", "0", "number > 0 with power",          \
+X(PROBLEM, "material.hardening_strain", NUMBER, AT(hardening.strain), 0, DBL_MAX, 0, "", "0", "number > 0 with power, else 0",  \
   "e0 of the power law")                                                                                               \
-X(PROBLEM, "material.hardening_exponent", NUMBER, AT(hardening.exponent), 0, 1, 0, "", "0", "number in (0, 1] with power",       \
+X(PROBLEM, "material.hardening_exponent", NUMBER, AT(hardening.exponent), 0, 1, 0, "", "0", "number in (0, 1] with power, else 0",\
   "m of the power law")                                                                                                \
 X(METHOD, "scheme", WORD, AT(scheme), 0, 0, 0, "upwind jst ulsph | efg adaptle", "upwind", "one of upwind, jst, ulsph",                    \
   "semi-discrete right-hand side")                                                                                     \
@@ -181,7 +181,7 @@ X(REPORT, "balance", FLAG, AT(balance), 0, 0, 0, "", "false", "true or false",  
 X(METHOD, "precision", WORD, AT(precision), 0, 0, 0, "double mixed single", "double", "one of double, mixed, single",                    \
   "mixed keeps pair vectors in single precision, and sums in double; single all fields, and sums of pairs (upwind)")  \
 X(REPORT, "threads", INTEGER, AT(threads), 0, 1024, 0, "", "0", "whole number in [0, 1024]",                                   \
-  "threads; 0: as many as there are cores and the work is worth")                                                     \
+  "threads; 0: as many as there are cores, or OMP_NUM_THREADS allows, and the work is worth")                                                     \
 X(PROBLEM, "initial.from", WORD, AT(initial_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",             \
   "whether formulas or the exact solution give the initial state")                                                     \
 X(PROBLEM, "loads.from", WORD, AT(loads_from), 0, 0, 0, "formulas oracle", "formulas", "one of formulas, oracle",                 \
@@ -218,10 +218,12 @@ X(REPORT, "beside", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ KEY = value, ... }"
   "another configuration of the same scene, whose probes a study shows and compares with this one's")                   \
 X(REPORT, "trade", STRUCTURED, 0, 0, 0, 0, "", OPTIONAL, "{ [NAME] = { KEY = value, ... }, ... }",                                  \
   "other ways to set the same problem up, less of it by symmetry for instance, which assay trade varies")              \
-X(REPORT, "view.field", TEXT, AT(view.field), 0, 0, SOLVER_NAME, "", NEEDED, "name of a scalar of the record",                 \
+X(REPORT, "view.field", TEXT, AT(view.field), 0, 0, SOLVER_NAME, "", "pressure", "name of a scalar of the record",                 \
   "what the picture shows")                                                                                            \
-X(REPORT, "view.range", NUMBERS, AT(view.range), 0, 0, 2, "", NEEDED, "list of 2 numbers, increasing", "colour range")         \
-X(REPORT, "view.bands", INTEGER, AT(view.bands), 2, 64, 0, "", "12", "whole number in [2, 64]", "filled contour bands")        \
+X(REPORT, "view.range", NUMBERS, AT(view.range), 0, 0, 2, "", OPTIONAL, "list of 2 numbers, increasing",                     \
+  "colour range; default: what there is, to round numbers")                                                            \
+X(REPORT, "view.bands", INTEGER, AT(view.bands), 2, 64, 0, "", OPTIONAL, "whole number in [2, 64]",                          \
+  "filled contour bands; default: 8 to 16, so that they end at round numbers")                                         \
 X(REPORT, "view.direction", NUMBERS, AT(view.direction), 0, 0, 3, "", "{1,0.8,0.6}", "list of 3 numbers",                      \
   "from the body towards the eye; default {1, 0.8, 0.6}, in a plane {0, 0, 1}")                                                                                     \
 X(REPORT, "view.up", NUMBERS, AT(view.up), 0, 0, 3, "", "{0,0,1}", "list of 3 numbers", "what points up in the picture; default {0, 0, 1}, in a plane {0, 1, 0}")       \
@@ -234,10 +236,10 @@ X(REPORT, "view.frame", NUMBERS, AT(view.frame), 0, 0, 6, "", OPTIONAL, "{x0, x1
 /* clang-format on */
 
 #define SAY(says, key, kind, offset, low, high, count, words, preset, expects, meaning)                                \
-    {key, expects, meaning, SOLVER_KEY_##says},
+    {key, expects, meaning, preset, SOLVER_KEY_##says},
 #define RULE(says, key, kind, offset, low, high, count, words, preset, expects, meaning)                               \
     {SCENE_##kind, offset, low, high, count, words, preset},
-static const struct solver_scene_key keys[] = {KEYS(SAY){NULL, NULL, NULL, SOLVER_KEY_PROBLEM}};
+static const struct solver_scene_key keys[] = {KEYS(SAY){NULL, NULL, NULL, NULL, SOLVER_KEY_PROBLEM}};
 static const struct scene_key rules[] = {KEYS(RULE)};
 
 const struct solver_scene_key *solver_scene_keys(void)

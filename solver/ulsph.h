@@ -39,7 +39,8 @@ struct solver_ulsph {
     double *L;             /* tensor; NULL: I */
     double *transport;     /* vector: transport velocity; v itself where xsph = 0 */
     double *sigma_L;       /* tensor: sigma L */
-    double *tensile_L;     /* tensor: sigma+ L, sigma+ the tensile part (-R of the paper) */
+    double *tensile_L;     /* tensor: sigma+ L, sigma+ the tensile part (-R of the paper, turned back; its eq. 18 prints
+                              R_xy with a plus where a rotation has a minus) */
     double *inner;         /* [count] colour C (eq. 52), then 1 within the body and 0 at and next to its surface */
     double *colour;
     double *v_gradient;   /* tensor (eq. 45) */

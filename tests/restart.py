@@ -265,8 +265,7 @@ def refused(place):
     checkpoint.write_bytes(other + b"assaySUM" + struct.pack("<Q", checksum(other)))
     place.run("again", again, 2, "a build by YYY")
     # Terminals obey what stands in a file only if it reaches them as it is.
-    at = data.index(b"tiny.lua\0")
-    other = data[:at] + b"ti\033[2J.a\0" + data[at + 9:-16]
+    other = data[:-16].replace(b"tiny.lua\0", b"ti\033[2J.a\0") # in the path, and in the command
     checkpoint.write_bytes(other + b"assaySUM" + struct.pack("<Q", checksum(other)))
     place.run("again", [*again, "--as-stored"], 2, "ti?[2J.a: the path holds control characters")
     checkpoint.write_bytes(data)

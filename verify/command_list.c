@@ -161,12 +161,24 @@ static bool list_measures(struct solver_error *error)
     return true;
 }
 
+/* After what a key expects: what it has unless given, if its meaning does not say so already. */
+static void print_preset(const struct solver_scene_key *key)
+{
+    if (key->preset == NULL) {
+        (void)printf("; must be given");
+    } else if (key->preset[0] != '\0' && strstr(key->meaning, "default") == NULL) {
+        (void)printf("; default: %s", key->preset);
+    }
+}
+
 static bool list_keys(struct solver_error *error)
 {
     (void)error;
     (void)printf("keys of a scene; any of them can be set on the command line by --set KEY=VALUE\n");
     for (const struct solver_scene_key *key = solver_scene_keys(); key->key != NULL; key++) {
-        (void)printf("  %-24s %s\n  %-24s   %s\n", key->key, key->meaning, "", key->expects);
+        (void)printf("  %-24s %s\n  %-24s   %s", key->key, key->meaning, "", key->expects);
+        print_preset(key);
+        (void)printf("\n");
     }
     return true;
 }

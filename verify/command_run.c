@@ -39,13 +39,14 @@ static void print_facts(const struct solver_scene *scene, const struct solver_fa
 /* How well the cloud of a body of any shape fits it. */
 static void print_quality(const struct solver_cloud *cloud)
 {
-    const struct solver_cloud_quality *quality = cloud->quality;
+    static const char *const unit[] = {"m", "m^2", "m^3"};
+    const struct solver_cloud_quality *quality = cloud->quality; /* of a solid, in 2D or 3D */
     if (quality == NULL) {
         return;
     }
-    (void)printf(
-        "  body of %.6g m^%d within %.6g m^%d; %zu particles on its surface, off it by %.1e spacings at most\n",
-        quality->volume, cloud->dim, quality->area, cloud->dim - 1, quality->on_surface, quality->off_surface);
+    (void)printf("  body of %.6g %s within %.6g %s; %zu particles on its surface, off it by %.1e spacings at most\n",
+                 quality->volume, unit[cloud->dim - 1], quality->area, unit[cloud->dim - 2], quality->on_surface,
+                 quality->off_surface);
     (void)printf("  areas sum to %.1e of it; volumes from %.2f of a cell, changed by %.1e, areas by %.1e of a side\n",
                  quality->closure, quality->least_volume, quality->correction, quality->area_correction);
     (void)printf("  particles from %.2f spacings apart, the surface up to %.2f from its own\n", quality->nearest,

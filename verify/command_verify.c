@@ -37,7 +37,7 @@ static bool choose_levels(struct work *work, struct solver_error *error)
 static bool draw(struct work *work, struct solver_error *error)
 {
     const struct solver_scene *scene = work->scene;
-    const struct solver_view *view = scene->has_view ? &scene->view : NULL;
+    struct solver_view view; /* of both pictures */
     struct verify_study *study = &work->study;
     struct solver_record *record = NULL;
     char title[SOLVER_TEXT + 16];
@@ -45,12 +45,13 @@ static bool draw(struct work *work, struct solver_error *error)
     if (!solver_record_read(study->record, &record, error)) {
         return false;
     }
-    bool done = verify_path_join(study->picture, work->folder, scene->name, ".png", error) &&
-                verify_picture_write(study->picture, record, view, scene->title, study->record, error);
+    bool done = verify_picture_view(record, scene->has_view ? &scene->view : NULL, &view, error) &&
+                verify_path_join(study->picture, work->folder, scene->name, ".png", error) &&
+                verify_picture_write(study->picture, record, &view, scene->title, study->record, error);
     if (done && !work->truth.none) {
         verify_picture_exact(record, work->truth.kind, work->truth.oracle);
         done = verify_path_join(study->exact_picture, work->folder, scene->name, ".exact.png", error) &&
-               verify_picture_write(study->exact_picture, record, view, title, study->record, error);
+               verify_picture_write(study->exact_picture, record, &view, title, study->record, error);
     }
     solver_record_free(record);
     return done;

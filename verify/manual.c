@@ -134,7 +134,7 @@ static const struct {
     {"ENVIRONMENT",
      "OMP_WAIT_POLICY=passive leaves waiting threads asleep, which is faster where other programs run on the same\n"
      "cores. How many threads a run uses, the scene's key threads says, or else the number of cores and of\n"
-     "particles; results are the same to the bit for any number.\n\n"
+     "particles, OMP_NUM_THREADS at most; results are the same to the bit for any number.\n\n"
      "ASSAY_TRAP=1 has an operation on floating-point numbers that is invalid, divides by zero or overflows end the\n"
      "program with 99, and say where. For finding the first of them; a run that breaks down says so without it."},
     {"FILES",

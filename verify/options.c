@@ -327,10 +327,21 @@ static bool apply(const struct verify_command *command, const struct option *opt
     }
 }
 
-/* Appends words to the command line that the record will hold; none of an option that no result depends on. */
+/* Options that say where results go, or what is kept on the way: the record is the same with and without them. */
+static bool leaves_no_trace(const struct option *option)
+{
+    static const char *const names[] = {"--checkpoint", "--out", "--json"};
+    bool found = false;
+    for (size_t i = 0; option != NULL && i < sizeof names / sizeof *names; i++) {
+        found = found || strcmp(option->name, names[i]) == 0;
+    }
+    return found;
+}
+
+/* Appends words to the command line that the record will hold. */
 static void keep_words(const struct option *option, int count, char *const *words, char *line)
 {
-    for (int i = 0; i < count && (option == NULL || strcmp(option->name, "--checkpoint") != 0); i++) {
+    for (int i = 0; i < count && !leaves_no_trace(option); i++) {
         size_t used = strlen(line);
         (void)snprintf(line + used, VERIFY_COMMAND_LINE - used, " %s", words[i]);
     }

@@ -71,11 +71,12 @@ struct verify_options {
     bool inside;               /* places outside the body are left out */
     bool help;
     bool mutations;
-    struct verify_pace checkpoint;  /* zeros where not given */
-    const char *restart;            /* NULL where not given */
-    bool as_stored;                 /* the scene's file may have changed since */
-    char line[VERIFY_COMMAND_LINE]; /* the command line as typed, but for --checkpoint, which no result depends on: for
-                                       the record */
+    struct verify_pace checkpoint; /* zeros where not given */
+    const char *restart;           /* NULL where not given */
+    bool as_stored;                /* the scene's file may have changed since */
+    char
+        line[VERIFY_COMMAND_LINE]; /* the command line as typed, for the record; without --checkpoint, --out and --json,
+                                      which no result depends on, so that equal runs leave equal bytes anywhere */
 };
 
 /* One command of the program. */

@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const struct solver_view corner_view = {
-    .field = "pressure", .bands = 16, .direction = {1, 0.8, 0.6}, .up = {0, 0, 1}, .magnify = 1, .size = {900, 700}};
+    .field = "pressure", .direction = {1, 0.8, 0.6}, .up = {0, 0, 1}, .magnify = 1, .size = {900, 700}};
 
 /* What the colour bar calls a field. */
 static const char *label_of(const char *field)
@@ -162,7 +162,7 @@ static void frame_of(const struct solver_record *record, const double *position,
     }
 }
 
-/* A colour range that is not empty, also where the field is constant. */
+/* From the smallest to the largest value. */
 static void full_range(const double *scalar, size_t count, double range[2])
 {
     range[0] = INFINITY;
@@ -171,11 +171,30 @@ static void full_range(const double *scalar, size_t count, double range[2])
         range[0] = fmin(range[0], scalar[a]);
         range[1] = fmax(range[1], scalar[a]);
     }
-    if (!(range[1] > range[0])) {
-        double size = fmax(fabs(range[0]), 1.0);
-        range[0] -= 0.5 * size;
-        range[1] += 0.5 * size;
+}
+
+bool verify_picture_view(const struct solver_record *record, const struct solver_view *view, struct solver_view *whole,
+                         struct solver_error *error)
+{
+    const char *unit;
+    double *scalar = calloc(record->count + 1, sizeof *scalar);
+    if (scalar == NULL) {
+        return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the picture of %zu particles", record->count);
     }
+    struct solver_view chosen = view != NULL ? *view : corner_view;
+    if (view == NULL && record->dim < 3) { /* face on */
+        memcpy(chosen.direction, (double[3]){0, 0, 1}, sizeof chosen.direction);
+        memcpy(chosen.up, (double[3]){0, 1, 0}, sizeof chosen.up);
+    }
+    bool done = read_scalar(record, chosen.field, scalar, &unit, error);
+    if (done) {
+        double seen[2];
+        full_range(scalar, record->count, seen);
+        verify_picture_scale(seen, chosen.range, &chosen.bands);
+        *whole = chosen;
+    }
+    free(scalar);
+    return done;
 }
 
 static bool draw_surface(const struct solver_record *record, const struct solver_view *view, const char *title,
@@ -197,13 +216,6 @@ static bool draw_surface(const struct solver_record *record, const struct solver
     memcpy(shown.direction, view->direction, sizeof shown.direction);
     memcpy(shown.up, view->up, sizeof shown.up);
     memcpy(shown.range, view->range, sizeof shown.range);
-    if (view == &corner_view) {
-        full_range(scalar, record->count, shown.range);
-    }
-    if (view == &corner_view && record->dim < 3) { /* face on */
-        memcpy(shown.direction, (double[3]){0, 0, 1}, sizeof shown.direction);
-        memcpy(shown.up, (double[3]){0, 1, 0}, sizeof shown.up);
-    }
     frame_of(record, position, shown.frame);
     for (int i = 0; i < 6; i++) {
         if (view->frame[i] != 0) {
@@ -216,25 +228,42 @@ static bool draw_surface(const struct solver_record *record, const struct solver
     return drawn || solver_fail(error, SOLVER_BAD_INPUT, "the picture cannot be drawn: %s", why);
 }
 
+/* As a paper has it: 8e-05 as 8 x 10^-5. */
+static void spell_time(double t, char out[48])
+{
+    char number[32];
+    (void)snprintf(number, sizeof number, "%.6g", t);
+    const char *power = strchr(number, 'e');
+    if (power == NULL) {
+        (void)snprintf(out, 48, "%s", number);
+    } else {
+        (void)snprintf(out, 48, "%.*s \u00d7 10^%ld", (int)(power - number), number, strtol(power + 1, NULL, 10));
+    }
+}
+
 bool verify_picture_draw(const struct solver_record *record, const struct solver_view *view, const char *title,
                          struct render_image **image, struct solver_error *error)
 {
-    const struct solver_view *used = view != NULL ? view : &corner_view;
     const char *unit = "";
     char full_title[SOLVER_TEXT + 128];
     char magnified[64] = "";
-    if (used->magnify != 1.0) {
-        (void)snprintf(magnified, sizeof magnified, ", displacement \u00d7 %g", used->magnify);
+    char time[48];
+    struct solver_view used = corner_view;
+    if (!verify_picture_view(record, view, &used, error)) {
+        return false;
     }
-    (void)snprintf(full_title, sizeof full_title, "%s, t = %.6g s%s", title, record->time, magnified);
+    if (used.magnify != 1.0) {
+        (void)snprintf(magnified, sizeof magnified, ", displacement \u00d7 %g", used.magnify);
+    }
+    spell_time(record->time, time);
+    (void)snprintf(full_title, sizeof full_title, "%s, t = %s s%s", title, time, magnified);
     double *position = calloc(record->count, 4 * sizeof *position);
     if (position == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the picture of %zu particles", record->count);
     }
     double *scalar = position + 3 * record->count;
-    bool done = place(record, used->magnify, position, error) &&
-                read_scalar(record, used->field, scalar, &unit, error) &&
-                draw_surface(record, used, full_title, position, scalar, unit, image, error);
+    bool done = place(record, used.magnify, position, error) && read_scalar(record, used.field, scalar, &unit, error) &&
+                draw_surface(record, &used, full_title, position, scalar, unit, image, error);
     free(position);
     return done;
 }

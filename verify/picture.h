@@ -6,11 +6,17 @@
 #include "render/render.h"
 #include "solver/record.h"
 
-/* Draws a record as `view` says (NULL: the pressure from its smallest to its largest value, seen from a corner). The
+/* Draws a record as `view` says (NULL: the pressure, seen from a corner), completed as verify_picture_view does. The
  * frame is the reference body's bounding box, grown in steps until the deformed body fits, so that it hardly ever
  * moves. Errors name the field that the record lacks. */
 bool verify_picture_draw(const struct solver_record *record, const struct solver_view *view, const char *title,
                          struct render_image **image, struct solver_error *error);
+/* What a picture of the record is drawn by: `view`, with a colour range and bands where it leaves them open. So two
+ * records can have one scale. */
+bool verify_picture_view(const struct solver_record *record, const struct solver_view *view, struct solver_view *whole,
+                         struct solver_error *error);
+/* A range, where it is {0, 0}, and bands, where they are 0: round numbers, of a range that holds the values seen. */
+void verify_picture_scale(const double seen[2], double range[2], int *bands);
 /* Whether the records of a scene will have the field that its view names: what is wrong is said before a run, not
  * after it. */
 bool verify_picture_check(const struct solver_scene *scene, struct solver_error *error);

@@ -38,9 +38,15 @@ static bool read_bound(const struct verify_options *options, struct verify_pick 
     return true;
 }
 
+/* What the scene was called on the command line. */
+static const char *called(const struct verify_options *options, const struct solver_scene *scene)
+{
+    return options->operand_count > 0 ? options->operand[0] : scene->name;
+}
+
 /* Whether the study is of this scene as it is now. */
-static bool is_of(const struct verify_trade *trade, const struct solver_scene *scene, const char *path,
-                  struct solver_error *error)
+static bool is_of(const struct verify_trade *trade, const struct verify_options *options,
+                  const struct solver_scene *scene, const char *path, struct solver_error *error)
 {
     if (strcmp(trade->scene, scene->name) != 0) {
         return solver_fail(error, SOLVER_BAD_INPUT, "%s: a study of the scene %s, not of %s", path, trade->scene,
@@ -50,7 +56,7 @@ static bool is_of(const struct verify_trade *trade, const struct solver_scene *s
            solver_fail(error, SOLVER_BAD_INPUT,
                        "%s: the scene has changed since the study, or other keys are overridden than then (%s); make "
                        "another: assay trade %s",
-                       path, trade->overrides[0] != '\0' ? trade->overrides : "none", scene->name);
+                       path, trade->overrides[0] != '\0' ? trade->overrides : "none", called(options, scene));
 }
 
 static bool find_study(const struct verify_options *options, const struct solver_scene *scene, char path[VERIFY_PATH],
@@ -65,17 +71,17 @@ static bool find_study(const struct verify_options *options, const struct solver
            verify_path_join(path, folder, "trade", ".tsv", error);
 }
 
-static bool read_study(const char *path, const struct solver_scene *scene, struct verify_trade *trade,
-                       struct solver_error *error)
+static bool read_study(const char *path, const struct verify_options *options, const struct solver_scene *scene,
+                       struct verify_trade *trade, struct solver_error *error)
 {
     struct solver_error why = {.code = SOLVER_OK};
     if (verify_trade_read(path, trade, &why)) {
-        return is_of(trade, scene, path, error);
+        return is_of(trade, options, scene, path, error);
     }
     if (why.code == SOLVER_IO) {
         return solver_fail(error, SOLVER_BAD_INPUT,
                            "%.600s. --error picks from a study of the scene; make one: assay trade %s", why.text,
-                           scene->name);
+                           called(options, scene));
     }
     *error = why;
     return false;
@@ -127,7 +133,7 @@ bool verify_pick_open(const struct verify_options *options, const struct solver_
     char path[VERIFY_PATH];
     *pick = (struct verify_pick){.options = *options};
     if (!verify_refuse_n(options, "n is what --error picks", error) || !find_study(options, scene, path, error) ||
-        !read_study(path, scene, &pick->trade, error) || !read_bound(options, pick, error) ||
+        !read_study(path, options, scene, &pick->trade, error) || !read_bound(options, pick, error) ||
         !pick_run(pick, path, error) || !configure(pick, scene, error)) {
         return false;
     }
@@ -144,13 +150,13 @@ bool verify_pick_take(void *context, struct solver_run *run, struct solver_error
 
 /* `why`: the value is no number. */
 static void add_gate(struct verify_gates *gates, const char *name, const char *what, double value, double bound,
-                     const char *why)
+                     const char *unit, const char *why)
 {
     struct verify_gate *gate = &gates->gate[gates->count++];
     *gate = (struct verify_gate){.value = value,
                                  .bound = bound,
                                  .op = "<=",
-                                 .unit = "-",
+                                 .unit = unit,
                                  .why = why,
                                  .pass = verify_gate_judge(value, "<=", bound)};
     (void)snprintf(gate->name, sizeof gate->name, "%.40s%s", name, what);
@@ -170,10 +176,10 @@ bool verify_pick_judge(struct verify_pick *pick, const struct solver_scene *scen
         return false;
     }
     pick->gates = (struct verify_gates){.pass = true};
-    add_gate(&pick->gates, name, "", value.value, pick->bound, value.why);
+    add_gate(&pick->gates, name, "", value.value, pick->bound, value.unit, value.why);
     /* an error of nothing has no size: what is asked for has */
     add_gate(&pick->gates, name, " off the study", fabs(value.value - said) / (said > 0.0 ? said : pick->bound),
-             repeats_to, value.why);
+             repeats_to, "-", value.why);
     return true;
 }
 

@@ -203,6 +203,66 @@ static void history_columns(void)
     }
 }
 
+/* Each total has its own column, where the history says that it tells something. */
+static void every_total(void)
+{
+    for (int dim = 1; dim <= 3; dim++) {
+        struct body *body = body_make(dim);
+        const struct solver_totals one = {.time = 1,
+                                          .linear = {2, 3, 4},
+                                          .angular = {5, 6, 7},
+                                          .kinetic = 8,
+                                          .strain = 9,
+                                          .plastic = 10,
+                                          .external = 11,
+                                          .iterations = 12,
+                                          .volume_change = 13,
+                                          .numerical = 14,
+                                          .impact = 15,
+                                          .wall = {16, 17, 18}};
+        const struct {
+            const char *name;
+            double value;
+            int least; /* dimension that has it */
+        } expected[] = {{"time", 1, 1},
+                        {"linear_momentum_x", 2, 1},
+                        {"linear_momentum_y", 3, 2},
+                        {"linear_momentum_z", 4, 3},
+                        {"angular_momentum_x", 5, 3},
+                        {"angular_momentum_y", 6, 3},
+                        {"angular_momentum_z", 7, 2},
+                        {"kinetic_energy", 8, 1},
+                        {"strain_energy", 9, 1},
+                        {"total_energy", 17, 1},
+                        {"external_work", 11, 1},
+                        {"plastic_work", 10, 1},
+                        {"iterations", 12, 1},
+                        {"volume_change", 13, 1},
+                        {"numerical_dissipation", 14, 1},
+                        {"impact_loss", 15, 1},
+                        {"wall_impulse_x", 16, 1},
+                        {"wall_impulse_y", 17, 2},
+                        {"wall_impulse_z", 18, 3}};
+        struct solver_record *record = NULL;
+        struct solver_error error;
+        size_t found = 0;
+        body->totals[BODY_ROWS - 1] = one;
+        body->history.flows = body->history.incompressible = body->history.balanced = body->history.walled = true;
+        body->history.probe_count = 0;
+        CU_ASSERT_TRUE_FATAL(body_record(body, &record, &error));
+        const double *row = record->history + (BODY_ROWS - 1) * record->history_columns;
+        for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
+            size_t c = find_column(record, expected[i].name);
+            CU_ASSERT_EQUAL(c < record->history_columns, dim >= expected[i].least);
+            CU_ASSERT(c == record->history_columns || row[c] == expected[i].value);
+            found += c < record->history_columns ? 1 : 0;
+        }
+        CU_ASSERT_EQUAL(found, record->history_columns);
+        solver_record_free(record);
+        free(body);
+    }
+}
+
 /* Without a history there are columns and no rows. */
 static void no_history(void)
 {
@@ -370,6 +430,7 @@ int main(void)
         {"the cofactor only where it is evolved", cofactor_only_where_evolved},
         {"without a deformation gradient", without_deformation},
         {"columns of the history", history_columns},
+        {"a column for every total", every_total},
         {"a record without history", no_history},
         {"a scene longer than an attribute", long_scene},
         {"names refused", names_refused},

@@ -27,6 +27,21 @@ static void test_t_end_is_hit(void)
     }
 }
 
+/* Time does not run backwards, and has an end. */
+static void test_no_time_in_the_past(void)
+{
+    struct sample sample = start(smooth_motion, "dim=1");
+    static const double wrong[] = {-1.0, 0.25, (double)NAN};
+    advance_to(&sample, 0.5);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        struct solver_error error = {.text = ""};
+        CU_ASSERT_FALSE(solver_run_to(sample.run, wrong[i], NULL, NULL, &error));
+        CU_ASSERT(error.code == SOLVER_BAD_INPUT && strstr(error.text, "a time from now on") != NULL);
+        CU_ASSERT_EQUAL(output_of(&sample).time, 0.5);
+    }
+    finish(&sample);
+}
+
 /* As many rows over t_end as the scene says, and the same ones where the run is made in parts. */
 static void test_history_rows(void)
 {
@@ -263,6 +278,7 @@ int main(void)
 {
     static const struct unit_test tests[] = {
         {"t_end is hit exactly", test_t_end_is_hit},
+        {"no time in the past", test_no_time_in_the_past},
         {"rows of the time history", test_history_rows},
         {"as many steps as asked for", test_steps_are_counted},
         {"progress sees every step and can stop the run", test_progress_can_stop},

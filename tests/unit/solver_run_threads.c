@@ -4,6 +4,7 @@
 #include "solver/scheme.h"
 #include "solver/stencil.h"
 
+#include <limits.h>
 #include <omp.h>
 
 /* Everything a run shows, one array after another. */
@@ -169,6 +170,7 @@ static void test_number(void)
     static const struct {
         int n, asked, worth;
     } lines[] = {{500, 0, 1}, {500, 3, 3}, {40000, 0, 1}, {70000, 0, 2}, {400000, 0, 12}};
+    CU_ASSERT_EQUAL(unsetenv("OMP_NUM_THREADS"), 0);
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         struct sample sample = start("", "dim=1 n=%d threads=%d", lines[i].n, lines[i].asked);
         int cores = omp_get_num_procs();
@@ -176,6 +178,26 @@ static void test_number(void)
         CU_ASSERT_EQUAL(solver_run_facts(sample.run).threads, expected);
         finish(&sample);
     }
+}
+
+/* OMP_NUM_THREADS is the most that a run left to itself takes; what is no number says nothing. */
+static void test_environment(void)
+{
+    static const struct {
+        const char *value;
+        int asked, most;
+    } table[] = {{"1", 0, 1},          {"1,4", 0, 1},    {"1", 3, 3}, {"100000", 0, INT_MAX},
+                 {"many", 0, INT_MAX}, {"0", 0, INT_MAX}};
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        int cores = omp_get_num_procs(), worth = 2;
+        CU_ASSERT_EQUAL(setenv("OMP_NUM_THREADS", table[i].value, 1), 0);
+        struct sample sample = start("", "dim=1 n=70000 threads=%d", table[i].asked);
+        int expected = worth < cores ? worth : cores;
+        expected = table[i].asked > 0 ? table[i].asked : expected < table[i].most ? expected : table[i].most;
+        CU_ASSERT_EQUAL(solver_run_facts(sample.run).threads, expected);
+        finish(&sample);
+    }
+    CU_ASSERT_EQUAL(unsetenv("OMP_NUM_THREADS"), 0);
 }
 
 int main(void)
@@ -186,6 +208,7 @@ int main(void)
         {"reconstructions, fluxes, integrators, perturbed clouds", test_other_choices},
         {"the comparison sees one bit", test_comparison_sees},
         {"number of threads", test_number},
+        {"OMP_NUM_THREADS", test_environment},
     };
     return unit_main("run on threads", tests, sizeof tests / sizeof *tests);
 }

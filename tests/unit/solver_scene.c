@@ -227,6 +227,27 @@ static void table_of_keys(void)
     CU_ASSERT(count > 40);
 }
 
+/* What the table says that a key has unless it is given, a scene without it has. */
+static void presets(void)
+{
+    size_t compared = 0;
+    char has[SOLVER_TEXT];
+    write_changed(NULL, "view = {}");
+    struct solver_scene *scene = load_good(NULL);
+    for (const struct solver_scene_key *key = solver_scene_keys(); key->key && scene; key++) {
+        if (key->preset && key->preset[0] && solver_scene_text(scene, key->key, has, sizeof has)) {
+            char *end;
+            double number = strtod(key->preset, &end);
+            CU_ASSERT(*end ? !strcmp(has, key->preset) : strtod(has, NULL) == number);
+            compared++;
+        }
+    }
+    CU_ASSERT(compared > 40);
+    CU_ASSERT_STRING_EQUAL(scene->view.field, "pressure");
+    CU_ASSERT(scene->view.range[0] == 0 && scene->view.range[1] == 0 && scene->view.bands == 0);
+    solver_scene_free(scene);
+}
+
 int main(void)
 {
     static const struct unit_test tests[] = {
@@ -237,6 +258,7 @@ int main(void)
         {"gates and published", gates_and_published},
         {"formula fails late", formula_fails_late},
         {"table of keys", table_of_keys},
+        {"presets", presets},
     };
     return scene_files_main("scene", tests, sizeof tests / sizeof *tests);
 }

@@ -279,7 +279,7 @@ static void bad_lists(void)
          "gates[1].when.stencil: expected one of sph, closed, sbp2, sbp4, got the text 'spb4'"},
         {0, "gates = { { p = 1, when = { cfl = '0.8' } } }", 0, "gates[1].when.cfl: expected number in (0, 10], got"},
         {0, "gates = { { p = 1, when = { stencil = 4 } } }", 0, "gates[1].when.stencil: expected one of sph"},
-        {0, "view = { field = 'pressure' }", 0, "view.range: missing; expected list of 2 numbers, increasing"},
+        {0, "view = { field = 'p', range = {0, 0} }", 0, "view.range: expected two increasing numbers, got 0 and 0"},
         {0, "view = { field = 'p', range = {1, 1} }", 0, "view.range: expected two increasing numbers, got 1 and 1"},
         {0, "view = { field = 'p', range = {0, 1}, up = {0, 0, -2} }", 0, "view.up: expected a direction that"},
         {0, "view = { field = 'p', range = {0, 1}, frame = {0, 1, 2, 1, 0, 0} }", 0,

@@ -141,9 +141,9 @@ static void distance_from_a_box(void)
     static const double half[3] = {0.5, 1.25, 0.75}; /* as floats too */
     uint64_t seed = 3;
     make_box(half);
-    for (int kind = 0; kind < 2; kind++) {
-        double scale = kind == 0 ? 1.0 : 0.001, worst = 0.0;
-        if (kind == 0) {
+    for (int kind = 0; kind < 4; kind++) { /* ASCII and binary, each as it is and in mm */
+        double scale = kind < 2 ? 1.0 : 0.001, worst = 0.0;
+        if (kind % 2 == 0) {
             write_ascii();
         } else {
             write_bytes(bytes, pack());

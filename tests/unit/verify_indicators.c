@@ -266,6 +266,31 @@ static void at_rest(void)
     CU_ASSERT(isnan(value[VERIFY_ENERGY_GAIN]));
 }
 
+/* The drift of the angular momentum is over sqrt(2 m E) and half the diagonal: of a plate of 1 m, sqrt(1/2) m. */
+static void half_the_diagonal(void)
+{
+    static const char *const overrides[] = {"n=8", "t_end=2e-3", "evolved=pF"};
+    struct solver_scene *scene = NULL;
+    struct solver_run *run = NULL;
+    struct solver_output output;
+    CU_ASSERT_FATAL(
+        solver_scene_load(TEST_SOURCE_DIR "/verify/scenes/rotating-plate.lua", overrides, 3, &scene, &error));
+    CU_ASSERT_FATAL(solver_run_create(scene, &run, &error));
+    CU_ASSERT_FATAL(solver_run_to(run, scene->t_end, NULL, NULL, &error) && solver_run_output(run, &output, &error));
+    const struct solver_facts facts = solver_run_facts(run);
+    const struct solver_history *history = solver_run_history(run);
+    double drift = 0, kinetic = 0;
+    for (size_t i = 0; i < history->count; i++) {
+        drift = fmax(drift, fabs(history->totals[i].angular[2] - history->totals[0].angular[2]));
+        kinetic = fmax(kinetic, history->totals[i].kinetic);
+    }
+    CU_ASSERT_FATAL(verify_indicators_measure(scene, &output, history, &facts, value, &error));
+    CU_ASSERT(drift > 0);
+    CU_ASSERT_DOUBLE_EQUAL(value[VERIFY_ANGULAR_MOMENTUM] / (drift / sqrt(2 * 1100 * kinetic * 0.5)), 1, 1e-9);
+    solver_run_free(run);
+    solver_scene_free(scene);
+}
+
 /* What the scene does to the body decides what is conserved. */
 static void faces(void)
 {
@@ -322,6 +347,7 @@ int main(void)
         {"positions that are none", positions_that_are_none},
         {"drifts", drifts},
         {"drifts that are none", drifts_that_are_none},
+        {"half the diagonal", half_the_diagonal},
         {"at rest", at_rest},
         {"faces", faces},
         {"names", names},

@@ -69,6 +69,22 @@ static void weights(void)
     CU_ASSERT_DOUBLE_EQUAL(measured(of_one, place, place), 16.0 / 18.0, 1e-12);
 }
 
+/* Volumes are those of now: neighbours that have become three times as large count three times. */
+static void volumes_of_now(void)
+{
+    const struct solver_cloud cloud = {.dim = 2, .count = COUNT, .spacing = 1.0 / (SIDE - 1), .X = X};
+    struct solver_output output = square(&cloud, of_one);
+    const struct verify_measuring in = {.output = &output};
+    const struct verify_argument argument[] = {{.number = 0}, {.place = {1.0, 0.5}}, {.place = {1.0, 0.5}}};
+    double value = 0.0;
+    struct solver_error error;
+    for (size_t a = 0; a < COUNT; a++) {
+        J[a] *= X[2 * a + 1] != 0.5 ? 3.0 : 1.0;
+    }
+    CU_ASSERT(verify_plastic_section(&in, argument, &value, &error));
+    CU_ASSERT_DOUBLE_EQUAL(value, 16.0 / 22.0, 1e-12);
+}
+
 static void largest(void)
 {
     const struct solver_cloud cloud = {.dim = 2, .count = COUNT, .spacing = 1.0 / (SIDE - 1), .X = X};
@@ -105,6 +121,7 @@ int main(void)
     static const struct unit_test tests[] = {
         {"strain across a section", section},
         {"weights of a section", weights},
+        {"volumes of now", volumes_of_now},
         {"largest strain", largest},
         {"work of a ram", ram},
     };

@@ -27,7 +27,7 @@ static void keep_study(void)
 
 static bool opens(const char *asked, const char *override, struct verify_pick *pick)
 {
-    struct verify_options options = {.error = asked, .study = study};
+    struct verify_options options = {.error = asked, .study = study, .operand = {"here/scene.lua"}, .operand_count = 1};
     if (override != NULL) {
         options.override[options.override_count++] = override;
     }
@@ -106,7 +106,7 @@ static void refusals(void)
     CU_ASSERT_TRUE_FATAL(solver_scene_load(path, (const char *[]){"material.E=11"}, 1, &scene, &error));
     refused("1e-3", NULL, "other keys are overridden than then (none)");
     unlink(study);
-    refused("1e-3", NULL, "make one: assay trade scene");
+    refused("1e-3", NULL, "make one: assay trade here/scene.lua"); /* as it was called */
 }
 
 int main(void)

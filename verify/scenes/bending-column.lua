@@ -4,7 +4,8 @@ source = "003_253cac78b077eaad.txt, section 6.1"
 
 parameters = { V0 = 10, L = 6 } -- m/s, m
 
--- The axis is X = Z = 0.5; the paper monitors the middle of the top.
+-- The axis is X = Z = 0.5. The paper monitors (0.5, 6, 0.5), here the middle of the top; with the axis at X = Z = 0, where
+-- its section 6.2 has that of the same column, it would be a corner.
 dim = 3
 domain = { lower = {0, 0, 0}, upper = {1, L, 1} } -- m
 reference_length = 1

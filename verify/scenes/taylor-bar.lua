@@ -32,9 +32,10 @@ probes = { { name = "foot", X = {0, 0, 0} }, { name = "rim", X = {R, 0, 0} }, { 
            { name = "diagonal", X = {R / math.sqrt(2), R / math.sqrt(2), 0} }, { name = "top", X = {0, 0, L} } }
 
 -- Printed in 000_e9ec29e1bde7947d.txt, Table 2, [mm]: 6.95 (hexahedra), 6.99 (average nodal pressure), 6.98 (JST), 7.00
--- (Petrov-Galerkin, and cell-centred upwind finite volumes), 6.89 (its Upwind-SPH, {p,F}); 6.98 in 004 (JST-SPH). No
--- length is printed as a number: what it is compared with is ours at n = 4 (upwind). Since all radii fall short of what is
--- printed, a bar that is too soft would come nearer: "at n = 2" are those found before, held both ways.
+-- (Petrov-Galerkin, and cell-centred upwind finite volumes), 6.89 (its Upwind-SPH, {p,F}), and 5.55 of linear tetrahedra,
+-- which lock; 6.98 in 004 (JST-SPH), whose bar is 32 mm long, not 32.4. No length is printed as a number: what it is
+-- compared with is ours at n = 4 (upwind). Since all radii fall short of what is printed, a bar that is too soft would come
+-- nearer: "at n = 2" are those found before, held both ways.
 local found = scheme == "jst" and { radius = 6.610e-3, length = 21.859e-3 } or { radius = 6.213e-3, length = 21.896e-3 }
 figures = {
     radius = { measure = "distance", from = "foot", to = "rim", expected = 7.0e-3 }, -- m

@@ -18,6 +18,7 @@ initial = { velocity = function(X, Y, Z)
     return omega * (Z - 0.5), 0, -omega * (X - 0.5)
 end }
 
+-- nu of Figure 23; the text and the other captions have 0.4995, and Figure 24 Omega = 200.
 material = { model = "neo-hookean", E = 17e6, nu = 0.495, rho = 1100 } -- Pa, -, kg/m^3
 t_end = 0.1 -- s
 
