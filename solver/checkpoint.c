@@ -26,6 +26,7 @@ static bool keep_place(struct solver_keeper *keeper, struct solver_run *run, str
            solver_keep(keeper, "step", &run->step, sizeof run->step, 1, error) &&
            solver_keep(keeper, "work of loads", &run->external, sizeof run->external, 1, error) &&
            solver_keep(keeper, "numerical dissipation", &run->numerical, sizeof run->numerical, 1, error) &&
+           solver_keep(keeper, "bound of what moved faces put in", &run->driven, sizeof run->driven, 1, error) &&
            solver_keep(keeper, "seconds", &run->seconds, sizeof run->seconds, 1, error);
 }
 
@@ -218,7 +219,8 @@ static bool check(const struct solver_checkpoint *checkpoint, struct solver_run 
                                   "it stands at t = %g s, step %zu, which is not on the way to t_end = %g s", run->time,
                                   run->step, run->scene->t_end);
     }
-    if (!isfinite(run->external) || !isfinite(run->numerical) || !(run->seconds >= 0.0) || !isfinite(run->seconds)) {
+    if (!isfinite(run->external) || !isfinite(run->numerical) || !(run->driven >= 0.0) || !isfinite(run->driven) ||
+        !(run->seconds >= 0.0) || !isfinite(run->seconds)) {
         return solver_keep_refuse(&checkpoint->keeper, error, "its work, dissipation or seconds are no numbers");
     }
     if (!solver_run_check(run, &broken)) {

@@ -240,6 +240,27 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
     return true;
 }
 
+/* Of a mirrored wall's velocity and its image's the face has the mean, where they are opposite against it. */
+double solver_faces_driven(const struct solver_faces *faces, const struct solver_body *body, double t,
+                           struct solver_vectors v)
+{
+    double energy = 0.0;
+    for (size_t c = 0; c < faces->constraint_count; c++) {
+        const struct solver_constraint *constraint = &faces->constraint[c];
+        size_t a = constraint->particle;
+        size_t other = constraint->parity < 0.0 ? constraint->image : a;
+        double square = 0.0;
+        for (size_t i = 0; i < (size_t)faces->dim; i++) {
+            if (constraint->axis[i].motion >= 0 && solver_held_at(&constraint->axis[i], t)) {
+                double of_face = 0.5 * (solver_vectors_get(&v, a, i) + solver_vectors_get(&v, other, i));
+                square += of_face * of_face;
+            }
+        }
+        energy += 0.5 * body->constants[a * body->stride].rho * body->cloud->V[a] * square;
+    }
+    return energy;
+}
+
 /* Asks for the body force at time t, unless it is that of the last time. Formulas of the scene share an interpreter;
  * what stands in for them may be asked by several threads. */
 static bool ask_body_force(struct solver_faces *faces, const struct solver_body *body, double t,
@@ -343,12 +364,18 @@ void solver_faces_terms(const struct solver_faces *faces, const struct solver_bo
 {
     double dim = faces->dim;
     double constrained = 0.0;
+    double driven = 0.0;
     for (size_t c = 0; c < faces->constraint_count && !faces->only_hold; c++) {
         bool mirrored = faces->constraint[c].image != faces->constraint[c].particle;
         constrained += dim * (mirrored ? 4.0 : 2.0);
+        driven += 4.0;
+        for (int i = 0; i < faces->dim; i++) {
+            driven += faces->constraint[c].axis[i].motion >= 0 ? 4.0 : 0.0;
+        }
     }
     double of_force = faces->force != NULL ? 5.0 * dim * (double)body->cloud->count : 0.0;
     solver_cost_term(terms, "faces that hold or move", 0, constrained);
+    solver_cost_once(terms, "energy of moved faces", faces->moved ? driven : 0.0);
     solver_cost_term(terms, "tractions", 0, (double)faces->load_count * (2.0 * dim + 1.0 + 7.0 * dim));
     solver_cost_term(terms, "body force", 0, of_force);
 }

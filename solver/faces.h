@@ -37,7 +37,7 @@ struct solver_faces {
     struct solver_constraint *constraint; /* by particle */
     bool only_hold;                       /* constraints do no more than hold particles along axes; */
     struct solver_still *still;           /* [constraint_count] which then stand here, too; else NULL */
-    bool moved;                           /* some face is moved, which does work that nobody counts */
+    bool moved;                           /* some face is moved, which does work that nobody measures */
     size_t load_count;
     struct solver_face_point *load; /* face points of faces that prescribe a traction, or one across the normal */
     double *force;                  /* [count][dim] body force [N/m^3] at force_time; NULL: the scene has none */
@@ -61,6 +61,9 @@ bool solver_faces_constrain(const struct solver_faces *faces, const struct solve
 void solver_faces_hold(const struct solver_faces *faces, struct solver_vectors v, size_t begin, size_t end);
 /* Fills in `only_hold` and `still` from the constraints. */
 bool solver_faces_list_still(struct solver_faces *faces, struct solver_error *error);
+/* Kinetic energy [J] that particles have of the motion of the faces which move them at time t; v as it is then. */
+double solver_faces_driven(const struct solver_faces *faces, const struct solver_body *body, double t,
+                           struct solver_vectors v);
 /* Adds tractions and body forces at time t, per unit of reference area and volume, to v_rate; *power [W] becomes their
  * power at velocities v. */
 bool solver_faces_load(struct solver_faces *faces, const struct solver_body *body,

@@ -95,7 +95,8 @@ typedef bool solver_progress(void *context, double time, double t_end, size_t st
 
 /* Advances to t_end; SOLVER_BAD_INPUT if that is in the past. On a NaN or an inverted particle (J <= 0) fails with
  * SOLVER_BROKE_DOWN naming step, time, particle, place and field; the output is then the last good state, as it is
- * after a formula that failed. */
+ * after a formula that failed. So it fails where there is more energy than can have been put in, with the fastest
+ * particle; the output is then that state. */
 bool solver_run_to(struct solver_run *run, double t_end, solver_progress *progress, void *context,
                    struct solver_error *error);
 /* Exactly `steps` steps of the size the scene's CFL number gives, whatever t_end says. */

@@ -35,6 +35,7 @@ struct solver_run {
     bool by_stages;                                  /* stages end waves as well */
     double fastest;                                  /* [m/s] wave of the present state; 0: not known */
     double time, external, numerical;                /* [s]; [J], the last where the scene's balance asks */
+    double driven; /* [sqrt J] by so much the root of the energy can have grown by faces that are moved, at most */
     size_t step;
     int threads;
     double setup_seconds, seconds;

@@ -3,6 +3,7 @@
 #include "solver/run_internal.h"
 #include "solver/symmetry.h"
 
+#include <float.h>
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
@@ -16,17 +17,42 @@ double solver_run_clock(void)
     return (double)at.tv_sec + 1e-9 * (double)at.tv_nsec;
 }
 
-static bool is_finite(const struct solver_run *run, size_t a)
+/* Squared speed [m^2/s^2] of particle a. */
+static double square_of_speed(const struct solver_run *run, size_t a)
 {
     struct solver_vectors v = solver_state_v(&run->state);
-    double square = 0.0; /* as the loops do: what overflows when squared has grown beyond all bounds */
+    double square = 0.0;
     for (size_t i = 0; i < (size_t)run->cloud->dim; i++) {
         square += solver_vectors_get(&v, a, i) * solver_vectors_get(&v, a, i);
     }
-    return isfinite(square);
+    return square;
 }
 
-enum { ADVICE = 160 };
+/* As the loops do: what overflows when squared has grown beyond all bounds. */
+static bool is_finite(const struct solver_run *run, size_t a)
+{
+    return isfinite(square_of_speed(run, a));
+}
+
+static size_t fastest_particle(const struct solver_run *run)
+{
+    size_t fastest = 0;
+    for (size_t a = 1; a < run->cloud->count; a++) {
+        fastest = square_of_speed(run, a) > square_of_speed(run, fastest) ? a : fastest;
+    }
+    return fastest;
+}
+
+enum { ADVICE = 160, PLACE = 120 };
+
+static const char *place_of(const struct solver_run *run, size_t a, char text[PLACE])
+{
+    size_t dim = (size_t)run->cloud->dim;
+    const double *X = run->cloud->X + a * dim;
+    (void)snprintf(text, PLACE, "particle %zu at X = (%g, %g, %g) m", a, X[0], dim > 1 ? X[1] : 0.0,
+                   dim > 2 ? X[2] : 0.0);
+    return text;
+}
 
 /* What to try when a run breaks down; to evolve more only where a scene does not. */
 static const char *advice(const struct solver_run *run, char text[ADVICE])
@@ -41,6 +67,7 @@ bool solver_run_check(struct solver_run *run, struct solver_error *error)
     size_t count = run->cloud->count;
     size_t broken = count;
     char text[ADVICE];
+    char place[PLACE];
 #pragma omp parallel for schedule(static) reduction(min : broken)
     for (size_t piece = 0; piece < solver_pieces(count); piece++) {
         struct solver_piece at = solver_piece_at(piece, count);
@@ -50,12 +77,11 @@ bool solver_run_check(struct solver_run *run, struct solver_error *error)
     if (broken == count) {
         return true;
     }
-    const double *X = run->cloud->X + broken * (size_t)run->cloud->dim;
-    return solver_fail(
-        error, SOLVER_BROKE_DOWN, "step %zu, t = %.6g s: particle %zu at X = (%g, %g, %g) m: %s. Try %s", run->step,
-        run->time, broken, X[0], run->cloud->dim > 1 ? X[1] : 0.0, run->cloud->dim > 2 ? X[2] : 0.0,
-        is_finite(run, broken) ? run->scheme->complaint(run->system, broken) : "linear momentum p is not finite",
-        advice(run, text));
+    return solver_fail(error, SOLVER_BROKE_DOWN, "step %zu, t = %.6g s: %s: %s. Try %s", run->step, run->time,
+                       place_of(run, broken, place),
+                       is_finite(run, broken) ? run->scheme->complaint(run->system, broken)
+                                              : "linear momentum p is not finite",
+                       advice(run, text));
 }
 
 static double largest_step(const struct solver_run *run)
@@ -73,6 +99,17 @@ static void say_when(const struct solver_run *run, double dt, struct solver_erro
         (void)solver_fail(error, SOLVER_BROKE_DOWN, "step %zu, t = %.6g s: %s. Try %s", run->step + 1, run->time + dt,
                           found.text, advice(run, text));
     }
+}
+
+/* By how much, at most, the root of the energy E grew within a step by faces that are moved [sqrt J]. Moved particles
+ * of masses m feel forces f, whose power at their velocities v is at most sqrt(sum f^2 / m) sqrt(sum m v^2). With the
+ * largest frequency w of the body sum f^2 / m is at most w^2 2 E, so that d sqrt(E) / dt <= w sqrt(K), K the kinetic
+ * energy of moved particles; and w dt is below 4 where any of the integrators is stable. */
+static double driven_within(const struct solver_run *run)
+{
+    return run->faces.moved
+               ? 4.0 * sqrt(solver_faces_driven(&run->faces, &run->body, run->time, solver_state_v(&run->state)))
+               : 0.0;
 }
 
 static bool step(struct solver_run *run, double dt, struct solver_error *error)
@@ -96,6 +133,7 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
     if (whole || solver_run_check(run, error)) {
         run->external += work.external;
         run->numerical += work.numerical;
+        run->driven += driven_within(run);
         solver_wall_end(&run->wall, &run->state);
         return true;
     }
@@ -105,15 +143,38 @@ static bool step(struct solver_run *run, double dt, struct solver_error *error)
     return false;
 }
 
-/* A stable scheme never gains energy. Where all supply is known (no face is moved), ten times what was there and what
- * loads have put in cannot come from physics, nor from the mismatch between evolved F, H and J: the step is unstable.
- * A material with linear kinematics has no J <= 0 that would show it. */
+/* What there was at first and what loads put in at most [J]; of moved faces what they can have put in at most. */
+static double supply_of(const struct solver_run *run)
+{
+    const struct solver_totals *first = &run->history.totals[0];
+    double supply = first->kinetic + first->strain;
+    for (size_t i = 0; i < run->history.count; i++) {
+        supply = fmax(supply, first->kinetic + first->strain + fabs(run->history.totals[i].external));
+    }
+    double root = sqrt(fmax(supply, 0.0)) + run->driven;
+    return run->faces.moved ? root * root : supply;
+}
+
+/* Round-off of the strain energy [J], which is a difference of terms as large as moduli: at rest it may be less than
+ * none. Some dozens of operations. */
+static double round_off_of_energy(const struct solver_run *run)
+{
+    double moduli = 0.0;
+    for (size_t a = 0; a < run->cloud->count; a++) {
+        const struct solver_material_constants *constants = &run->constants[a * run->body.stride];
+        moduli += constants->rho * constants->cp * constants->cp * run->cloud->V[a];
+    }
+    return 64.0 * DBL_EPSILON * moduli;
+}
+
+/* A stable scheme never gains energy. Ten times what was there and what loads and moved faces have put in cannot come
+ * from physics, nor from the mismatch between evolved F, H and J: the step is unstable. A material with linear
+ * kinematics has no J <= 0 that would show it. The pressure of an incompressible body does any work at once. */
 static bool check_energy(const struct solver_run *run, struct solver_error *error)
 {
     const struct solver_history *history = &run->history;
-    const struct solver_totals *first = &history->totals[0];
     const struct solver_totals *last = &history->totals[history->count - 1];
-    if (run->faces.moved) {
+    if (run->faces.moved && run->scene->incompressible.solver != SOLVER_PRESSURE_NONE) {
         return true;
     }
     /* over the first steps of a load that starts from nothing, the quadrature of its work is poor */
@@ -121,20 +182,23 @@ static bool check_energy(const struct solver_run *run, struct solver_error *erro
     if (loaded && run->step < 20) {
         return true;
     }
-    double supply = first->kinetic + first->strain;
-    for (size_t i = 0; i < history->count; i++) {
-        supply = fmax(supply, first->kinetic + first->strain + fabs(history->totals[i].external));
-    }
+    double supply = supply_of(run);
     double energy = last->kinetic + last->strain;
     if (energy <= 10.0 * supply || energy <= 0.0) {
         return true;
     }
+    if (energy <= round_off_of_energy(run)) {
+        return true;
+    }
     char text[ADVICE];
+    char place[PLACE];
+    size_t fastest = fastest_particle(run);
     return solver_fail(
         error, SOLVER_BROKE_DOWN,
-        "step %zu, t = %.6g s: kinetic and strain energy are %.3g J, and only %.3g J were ever put in: the "
-        "run is unstable. Try %s (cfl is %g)",
-        run->step, run->time, energy, supply, advice(run, text), run->scene->cfl);
+        "step %zu, t = %.6g s: kinetic and strain energy are %.3g J, and %s %.3g J were ever put in: the "
+        "run is unstable. Linear momentum p is that of %.3g m/s at %s. Try %s (cfl is %g)",
+        run->step, run->time, energy, run->faces.moved ? "at most" : "only", supply,
+        sqrt(square_of_speed(run, fastest)), place_of(run, fastest, place), advice(run, text), run->scene->cfl);
 }
 
 bool solver_run_steps(struct solver_run *run, size_t steps, struct solver_error *error)

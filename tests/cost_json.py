@@ -23,6 +23,8 @@ for item in cost["without"]:
     for key in ("flop_per_particle_step", "bytes_per_particle"):
         if item["runs"] and not item[key] <= cost[key]:
             wrong.append(f"without {item['name']}: {key} {item[key]} instead of {cost[key]}")
+    if all(item[key] == cost[key] for key in ("flop_per_particle_step", "bytes_per_particle")):
+        wrong.append(f"without {item['name']} nothing is saved")
     if not item["runs"] or f"  {item['name']} " not in said:
         wrong.append(f"without {item['name']} it does not run, or it is not printed")
 for unit in ("B/particle", "flop/p-step", "ns/p-step"):

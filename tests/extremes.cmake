@@ -30,6 +30,11 @@ assay_test(extremes-notice-no-damping LABELS stability mustfail COMMAND ${cli} 1
   "48 of these fail" $<TARGET_FILE:assay> extremes alternating --set jst.kappa4=0 --set scheme=jst)
 assay_test(extremes-know-their-names LABELS unit COMMAND ${cli} 2
   "did you mean scale" $<TARGET_FILE:assay> extremes scales)
+# The help names them all, as the refusal does, which takes its list from the table.
+assay_test(extremes-in-the-help LABELS unit COMMAND sh -c
+  "for name in $($<TARGET_FILE:assay> extremes none 2>&1 | sed 's/.*there are //' | tr -d ,)
+   do $<TARGET_FILE:assay> extremes --help | grep -w $name || exit 1
+   done")
 # What single precision rounds is told from what a place or a turn changes.
 assay_test(extremes-place-single LABELS stability gate COMMAND $<TARGET_FILE:assay> extremes place --set precision=single)
 # No row is measured with words that are wrong, or that say something else than the row does; the report is there or not.

@@ -65,6 +65,7 @@ trade_refuses(vary-no-number "--vary cfl=abc: expected a number" trade plastic-w
 trade_refuses(vary-no-such-word "did you mean sbp" trade plastic-wave --vary stencil=sbp2,sbp3)
 trade_refuses(vary-what-is-set "--set fixes this key" trade plastic-wave --vary cfl=0.3 --set cfl=0.8)
 trade_refuses(vary-twice "given twice" trade plastic-wave --vary cfl=0.3 --vary cfl=0.8)
+trade_refuses(vary-same-value "0.80 is given twice" trade plastic-wave --vary cfl=0.8,0.3,0.80)
 trade_refuses(vary-nothing "expected up to 16 values" trade plastic-wave --vary cfl=0.3,,0.8)
 trade_refuses(budget-twice "--budget: given twice" trade plastic-wave --budget 1 --budget 2)
 trade_refuses(levels-twice "--levels: given twice" trade plastic-wave --levels 20 --levels 40)

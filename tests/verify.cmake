@@ -148,8 +148,8 @@ if(NOT ASSAY_SANITIZE)
   set_tests_properties(no-room-to-draw PROPERTIES FIXTURES_SETUP no-room)
   set_tests_properties(no-room-to-draw-record PROPERTIES FIXTURES_REQUIRED "program;no-room")
 endif()
-# A run that breaks down: exit code 3, and the last good state on disk.
-assay_test(breakdown LABELS gate mustfail COMMAND ${cli} 3 "the last good state is in test-out/breakdown/"
+# A run that breaks down: exit code 3, and the last whole state on disk.
+assay_test(breakdown LABELS gate mustfail COMMAND ${cli} 3 "the last whole state is in test-out/breakdown/"
   ${assay} run swinging-cube --set n=8 --set t_end=1 --set cfl=3 --out test-out/breakdown)
 assay_test(breakdown-record LABELS gate COMMAND ${assay} render test-out/breakdown/swinging-cube.last-good.vtkhdf)
 set_tests_properties(breakdown PROPERTIES FIXTURES_SETUP breakdown)

@@ -26,14 +26,15 @@ static bool evolves_J(const struct solver_scene *scene)
     return verify_has_stencil(scene) && scene->evolved != SOLVER_PF && !is_incompressible(scene);
 }
 
+/* JST reconstructs nothing. */
 static bool reconstructs(const struct solver_scene *scene)
 {
-    return verify_has_stencil(scene) && strcmp(scene->reconstruction, "none") != 0;
+    return strcmp(scene->scheme, "upwind") == 0 && strcmp(scene->reconstruction, "none") != 0;
 }
 
 static bool has_least_squares(const struct solver_scene *scene)
 {
-    return verify_has_stencil(scene) && strcmp(scene->reconstruction, "least-squares") == 0;
+    return reconstructs(scene) && strcmp(scene->reconstruction, "least-squares") == 0;
 }
 
 static bool is_composite(const struct solver_scene *scene)

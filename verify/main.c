@@ -137,10 +137,9 @@ static const struct verify_command commands[] = {
      .help =
          "Drives one quantity after the other until runs no longer hold, most by bisection, and prints the last\n"
          "value that holds beside the nearest that fails, what is to be expected, and why it fails. NAME is one of\n"
-         "cfl, scale, place, alternating, spin, vibration, poisson, stretch, perturbed, impact, contrast, graded, "
-         "small;\n"
-         "without it all are measured. ROWS picks those that have this in their first column. --set goes to every\n"
-         "run; keys that the rows set themselves are refused.\n\n"
+         "cfl, scale, place, alternating, spin, vibration, poisson, stretch, perturbed, impact, contrast,\n"
+         "slanted, graded, small; without it all are measured. ROWS picks those that have this in their first\n"
+         "column. --set goes to every run; keys that the rows set themselves are refused.\n\n"
          "  assay extremes scale\n"
          "  assay extremes cfl \"sbp2 pF rk4, 1D\"\n"
          "  assay extremes cfl --json cfl.json\n\n"

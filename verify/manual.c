@@ -128,7 +128,7 @@ static const struct {
 } after[] = {
     {"EXIT STATUS",
      "0: all is well, and all gates pass. 1: a gate or a comparison fails. 2: the command line, a scene or a file is\n"
-     "wrong. 3: the run itself failed; the last good state is then on disk. 128 + N, as a shell sees it: signal N\n"
+     "wrong. 3: the run itself failed; the last whole state is then on disk. 128 + N, as a shell sees it: signal N\n"
      "stopped the program, 130 being Ctrl-C and 143 a SIGTERM; the message says whether the run is kept. A second one\n"
      "ends it at once."},
     {"ENVIRONMENT",

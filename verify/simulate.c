@@ -22,7 +22,8 @@ bool verify_record(const struct solver_scene *scene, struct solver_run *run, con
            solver_record_write(path, scene, &output, solver_run_history(run), command, ASSAY_VERSION, error);
 }
 
-/* Adds to the error where the last good state is, or why it could not be kept. */
+/* Adds to the error where the last whole state is, which of a run that grew is no longer a right one, or why it could
+ * not be kept. */
 static void keep_last_good(const struct solver_scene *scene, struct solver_run *run, const char *folder,
                            const char *command, struct solver_error *error)
 {
@@ -31,7 +32,7 @@ static void keep_last_good(const struct solver_scene *scene, struct solver_run *
     (void)snprintf(stem, sizeof stem, "%s.last-good", scene->name);
     bool kept = verify_record(scene, run, folder, stem, command, path, &why);
     size_t used = strlen(error->text);
-    (void)snprintf(error->text + used, sizeof error->text - used, "; the last good state %s%.400s%s",
+    (void)snprintf(error->text + used, sizeof error->text - used, "; the last whole state %s%.400s%s",
                    kept ? "is in " : "could not be kept: ", kept ? path : why.text, kept ? ", for assay render" : "");
 }
 

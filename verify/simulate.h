@@ -1,4 +1,4 @@
-/* A run from a loaded scene, with progress on the terminal and the last good state on disk if it breaks down. */
+/* A run from a loaded scene, with progress on the terminal and the last whole state on disk if it breaks down. */
 #ifndef VERIFY_SIMULATE_H
 #define VERIFY_SIMULATE_H
 

@@ -37,7 +37,14 @@ static bool add_value(struct verify_trade_axis *axis, const char *value, size_t 
                            "is none",
                            axis->key, (int)VERIFY_TRADE_VALUES);
     }
-    (void)snprintf(axis->value[axis->count++], SOLVER_NAME, "%.*s", (int)length, value);
+    char *added = axis->value[axis->count];
+    (void)snprintf(added, SOLVER_NAME, "%.*s", (int)length, value);
+    for (size_t i = 0; i < axis->count; i++) {
+        if (verify_same_value(axis->value[i], added)) {
+            return solver_fail(error, SOLVER_BAD_INPUT, "--vary %s: %s is given twice", axis->key, added);
+        }
+    }
+    axis->count++;
     return true;
 }
 

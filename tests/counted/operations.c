@@ -118,6 +118,10 @@ static void test_boundary(void)
         "faces = { X0 = 'clamped', X1 = { kind = 'traction', value = function() return first(0.1, 0, 0) end } }\n";
     expect(loaded, "evolved=pF", exact);
     expect(loaded, "evolved=pFHJ integrator=rk4", exact);
+    static const char moved[] =
+        "initial = { velocity = function(X, Y, Z) return first(0.05 * sin(2 * X), 0.04 * cos(3 * Y), 0) end }\n"
+        "faces = { X0 = 'clamped', X1 = { kind = 'motion', value = function() return first(0.1, 0, 0) end } }\n";
+    expect(moved, "evolved=pF", exact);
 }
 
 static void test_angular_momentum(void)
