@@ -189,29 +189,34 @@ static inline __attribute__((always_inline)) void gradients_with(const struct so
 }
 
 /* A loop each for what is common. */
+static inline __attribute__((always_inline)) void gradients_of(const struct solver_upwind *work, size_t begin,
+                                                               size_t end, bool pressure, bool least_squares)
+{
+    if (work->narrow != NULL) {
+        gradients_with(work, begin, end,
+                       (struct wanted){.pressure = pressure, .narrow = true, .least_squares = least_squares});
+    } else {
+        gradients_with(work, begin, end, (struct wanted){.pressure = pressure, .least_squares = least_squares});
+    }
+}
+
 static void gradients_of_pairs(const struct solver_upwind *work, size_t begin, size_t end)
 {
-    struct wanted wanted = {.pressure = work->pressure_gradient != NULL,
-                            .narrow = work->narrow != NULL,
-                            .composite = work->stride != 0,
-                            .least_squares = work->v_gradient != NULL};
-    if (wanted.pressure && wanted.composite) {
-        gradients_with(work, begin, end, wanted);
-    } else if (wanted.least_squares && wanted.pressure) {
-        gradients_with(work, begin, end,
-                       (struct wanted){.pressure = true, .narrow = wanted.narrow, .least_squares = true});
-    } else if (wanted.least_squares && wanted.narrow) {
-        gradients_with(work, begin, end, (struct wanted){.narrow = true, .least_squares = true});
-    } else if (wanted.least_squares) {
-        gradients_with(work, begin, end, (struct wanted){.least_squares = true});
-    } else if (wanted.narrow && wanted.pressure) {
-        gradients_with(work, begin, end, (struct wanted){.narrow = true, .pressure = true});
-    } else if (wanted.narrow) {
-        gradients_with(work, begin, end, (struct wanted){.narrow = true});
-    } else if (wanted.pressure) {
-        gradients_with(work, begin, end, (struct wanted){.pressure = true});
+    bool pressure = work->pressure_gradient != NULL;
+    bool least_squares = work->v_gradient != NULL;
+    if (pressure && work->stride != 0) { /* rare: not worth a loop each */
+        gradients_with(
+            work, begin, end,
+            (struct wanted){
+                .pressure = true, .narrow = work->narrow != NULL, .composite = true, .least_squares = least_squares});
+    } else if (pressure && least_squares) {
+        gradients_of(work, begin, end, true, true);
+    } else if (least_squares) {
+        gradients_of(work, begin, end, false, true);
+    } else if (pressure) {
+        gradients_of(work, begin, end, true, false);
     } else {
-        gradients_with(work, begin, end, (struct wanted){.pressure = false});
+        gradients_of(work, begin, end, false, false);
     }
 }
 
