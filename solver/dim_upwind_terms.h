@@ -7,10 +7,7 @@
 #include "solver/dim_inverse_root.h"
 #include "solver/upwind.h"
 
-enum {
-    JOIN = FLOPS_TENSOR + LANES, /* of the sums over every other neighbour */
-    OVER_TURNS = TURNS - 1
-};
+enum { OVER_TURNS = TURNS - 1 };
 
 /* Whether loops of dim_aligned.h take the gradients. */
 static inline bool aligns_gradients(const struct solver_upwind *work)
@@ -46,20 +43,21 @@ static inline void gradient_terms(const struct solver_upwind *work, size_t count
 {
     double pairs = (double)work->row[count];
     double particles = (double)count;
-    double of_vector = pairs * (LANES + FLOPS_ADD_SCALED) + particles * JOIN;
+    double sums = pairs * FLOPS_ADD_SCALED + particles * FLOPS_TENSOR; /* with those over every other neighbour */
     bool own = work->least_squares != NULL;
     bool aligned = aligns_gradients(work);
     if (aligned) {
         aligned_gradient_terms(work, count, terms);
     } else {
-        solver_cost_term(terms, "gradient of v, rate of F", 1, of_vector + particles * (2.0 * LANES + FLOPS_TENSOR));
+        solver_cost_term(terms, "gradient of v, rate of F", 1,
+                         pairs * LANES + sums + particles * (2.0 * LANES + FLOPS_TENSOR));
     }
     if (work->v_gradient != NULL) {
-        solver_cost_term(terms, "gradient of v by least squares", 1, of_vector);
+        solver_cost_term(terms, "gradient of v by least squares", 1, sums);
     }
     if (work->pressure_gradient != NULL && !aligned) {
         solver_cost_term(terms, own ? "gradient of U'(J) by least squares" : "gradient of U'(J)", 1,
-                         pairs * 3.0 * LANES + (own ? 0.0 : particles * LANES));
+                         pairs * 3.0 * LANES + particles * (own ? 1.0 : 2.0) * LANES);
     }
     if (work->P_gradient != NULL) {
         solver_cost_term(terms, own ? "gradient of P by least squares" : "gradient of P", 1,

@@ -42,71 +42,91 @@ static inline void in_runs(const struct solver_upwind *work, size_t begin, size_
     }
 }
 
-/* Gradients of a vector field and, if asked for, of a scalar one, at the particles of a group. */
+/* Gradients of v and, if asked for, of U'(J), at the particles of a group. */
 struct gradients {
-    wide of_vector[DIM], of_scalar;
+    wide of_v[DIM], of_pressure;
 };
 
-/* Which weights gradients are summed with. */
-enum weighting { WIDE, NARROW, LEAST_SQUARES };
+/* With the stencil's own weights, and with those of least squares. */
+struct both_gradients {
+    struct gradients own, slopes;
+};
 
-static inline __attribute__((always_inline)) struct weights
-load_weighting(const struct solver_upwind *work, enum weighting weighting, const struct pairs *pairs)
+/* What is summed, constants where the sums are called. Of U'(J) there is one gradient, that which the reconstruction
+ * takes. */
+struct wanted {
+    bool pressure, narrow, composite, least_squares;
+};
+
+static inline __attribute__((always_inline)) void add_difference(wide difference, wide jump, const struct weights *w,
+                                                                 bool pressure, struct gradients *G)
 {
-    if (weighting != LEAST_SQUARES) {
-        return load_pair(work, pairs, weighting == NARROW).C;
+    for (int I = 0; I < DIM; I++) {
+        G->of_v[I] += difference * w->each[I];
     }
-    const double *from[GROUP];
-    weights_at(work->least_squares, DIM, pairs, pairs->ab, from);
-    return load_weights(from, DIM);
+    if (pressure) {
+        G->of_pressure += jump * w->together;
+    }
 }
 
-static inline __attribute__((always_inline)) void add_difference(const struct solver_upwind *work,
-                                                                 enum weighting weighting, const struct group *group,
-                                                                 size_t k, bool idle, const real *field, wide field_a,
-                                                                 const real *scalar, wide scalar_a, bool composite,
-                                                                 struct gradients *G)
+static inline __attribute__((always_inline)) void add_differences(const struct solver_upwind *work,
+                                                                  const struct group *group, size_t k, bool idle,
+                                                                  struct wanted wanted, wide v_a, wide pressure_a,
+                                                                  struct both_gradients *G)
 {
     struct pairs pairs = pairs_of(work, group, k, idle);
-    struct weights w = load_weighting(work, weighting, &pairs);
-    wide difference = gather(field, LANES, pairs.b) - field_a;
-    for (int I = 0; I < DIM; I++) {
-        G->of_vector[I] += difference * w.each[I];
+    wide difference = gather(work->v, LANES, pairs.b) - v_a;
+    wide jump = v_a;
+    if (wanted.pressure) {
+        jump = gather_scalars(work->pressure, pairs.b) - pressure_a;
+        jump = wanted.composite ? where_alike(work, group, &pairs, jump) : jump;
     }
-    if (scalar != NULL) {
-        wide jump = gather_scalars(scalar, pairs.b) - scalar_a;
-        G->of_scalar += (composite ? where_alike(work, group, &pairs, jump) : jump) * w.together;
+    struct weights C = load_pair(work, &pairs, wanted.narrow).C;
+    add_difference(difference, jump, &C, wanted.pressure && !wanted.least_squares, &G->own);
+    if (wanted.least_squares) {
+        const double *from[GROUP];
+        weights_at(work->least_squares, DIM, &pairs, pairs.ab, from);
+        struct weights g = load_weights(from, DIM);
+        add_difference(difference, jump, &g, wanted.pressure, &G->slopes);
     }
 }
 
-/* sum_b (f_b - f_a) w_ab; `scalar` may be NULL. It jumps where materials meet, and no slope is taken across: that of a
- * soft particle beside a stiff one would be the stiff one's, and feed energy into the soft side. Sums over every other
- * neighbour are kept apart, so that one does not wait for the last; on a line there are too few for that. */
-static inline __attribute__((always_inline)) struct gradients sum_gradients(const struct solver_upwind *work,
-                                                                            const struct group *group,
-                                                                            const real *field, const real *scalar,
-                                                                            enum weighting weighting, bool composite)
+static inline __attribute__((always_inline)) void join_gradients(struct gradients *G, const struct gradients *other,
+                                                                 bool pressure)
 {
-    struct gradients even = {.of_scalar = {0}};
-    struct gradients odd = even;
-    wide f_a = gather(field, LANES, group->at);
-    wide s_a = scalar != NULL ? gather_scalars(scalar, group->at) : (wide){0};
+    for (int I = 0; I < DIM; I++) {
+        G->of_v[I] += other->of_v[I];
+    }
+    if (pressure) {
+        G->of_pressure += other->of_pressure;
+    }
+}
+
+/* sum_b (f_b - f_a) w_ab. U'(J) jumps where materials meet, and no slope is taken across: that of a soft particle
+ * beside a stiff one would be the stiff one's, and feed energy into the soft side. Sums over every other neighbour are
+ * kept apart, so that one does not wait for the last; on a line there are too few for that. */
+static inline __attribute__((always_inline)) struct both_gradients
+sum_gradients(const struct solver_upwind *work, const struct group *group, struct wanted wanted)
+{
+    struct both_gradients even = {.own = {.of_pressure = {0}}};
+    struct both_gradients odd = even;
+    wide v_a = gather(work->v, LANES, group->at);
+    wide pressure_a = wanted.pressure ? gather_scalars(work->pressure, group->at) : v_a;
     size_t k = 0;
     for (; DIM > 1 && k + 1 < group->shortest; k += 2) {
-        add_difference(work, weighting, group, k, false, field, f_a, scalar, s_a, composite, &even);
-        add_difference(work, weighting, group, k + 1, false, field, f_a, scalar, s_a, composite, &odd);
+        add_differences(work, group, k, false, wanted, v_a, pressure_a, &even);
+        add_differences(work, group, k + 1, false, wanted, v_a, pressure_a, &odd);
     }
     for (; k < group->longest; k += 2) {
-        add_difference(work, weighting, group, k, true, field, f_a, scalar, s_a, composite, &even);
+        add_differences(work, group, k, true, wanted, v_a, pressure_a, &even);
         if (k + 1 < group->longest) {
-            add_difference(work, weighting, group, k + 1, true, field, f_a, scalar, s_a, composite,
-                           DIM > 1 ? &odd : &even);
+            add_differences(work, group, k + 1, true, wanted, v_a, pressure_a, DIM > 1 ? &odd : &even);
         }
     }
-    for (int I = 0; I < DIM; I++) {
-        even.of_vector[I] += odd.of_vector[I];
+    join_gradients(&even.own, &odd.own, wanted.pressure && !wanted.least_squares);
+    if (wanted.least_squares) {
+        join_gradients(&even.slopes, &odd.slopes, wanted.pressure);
     }
-    even.of_scalar += odd.of_scalar;
     return even;
 }
 
@@ -146,37 +166,57 @@ static inline __attribute__((always_inline)) void store_slope(const struct solve
     scatter(work->pressure_gradient, LANES, group->at, slope);
 }
 
-/* The stencil's own gradients, which are the rate of F; of U'(J) if `pressure`. */
+/* The stencil's own gradients, which are the rate of F, and those that the reconstruction takes. */
 static inline __attribute__((always_inline)) void gradients_with(const struct solver_upwind *work, size_t begin,
-                                                                 size_t end, bool pressure, bool narrow, bool composite)
+                                                                 size_t end, struct wanted wanted)
 {
     struct group group;
     for (size_t a = begin; a < end; a += group.count) {
         group = next_group(work, a, end);
         wide half_per_V = 0.5 * ((real)work->unit / gather_each(work->V, 1, group.at));
-        struct gradients G =
-            sum_gradients(work, &group, work->v, pressure ? work->pressure : NULL, narrow ? NARROW : WIDE, composite);
+        struct both_gradients G = sum_gradients(work, &group, wanted);
         for (int I = 0; I < DIM; I++) {
-            G.of_vector[I] *= half_per_V;
+            G.own.of_v[I] *= half_per_V;
         }
-        scatter_columns(work->F_rate, group.at, G.of_vector);
-        if (pressure) {
-            store_slope(work, &group, half_per_V * G.of_scalar);
+        scatter_columns(work->F_rate, group.at, G.own.of_v);
+        if (wanted.least_squares) {
+            scatter_columns(work->v_gradient, group.at, G.slopes.of_v);
+        }
+        if (wanted.pressure) {
+            store_slope(work, &group, wanted.least_squares ? G.slopes.of_pressure : half_per_V * G.own.of_pressure);
         }
     }
 }
 
-static void least_squares_gradients(const struct solver_upwind *work, size_t begin, size_t end)
+/* A loop each for what is common. */
+static inline __attribute__((always_inline)) void gradients_of(const struct solver_upwind *work, size_t begin,
+                                                               size_t end, bool pressure, bool least_squares)
 {
-    const real *field = work->pressure_gradient != NULL ? work->pressure : NULL;
-    struct group group;
-    for (size_t a = begin; a < end; a += group.count) {
-        group = next_group(work, a, end);
-        struct gradients G = sum_gradients(work, &group, work->v, field, LEAST_SQUARES, work->stride != 0);
-        scatter_columns(work->v_gradient, group.at, G.of_vector);
-        if (field != NULL) {
-            store_slope(work, &group, G.of_scalar);
-        }
+    if (work->narrow != NULL) {
+        gradients_with(work, begin, end,
+                       (struct wanted){.pressure = pressure, .narrow = true, .least_squares = least_squares});
+    } else {
+        gradients_with(work, begin, end, (struct wanted){.pressure = pressure, .least_squares = least_squares});
+    }
+}
+
+static void gradients_of_pairs(const struct solver_upwind *work, size_t begin, size_t end)
+{
+    bool pressure = work->pressure_gradient != NULL;
+    bool least_squares = work->v_gradient != NULL;
+    if (pressure && work->stride != 0) { /* rare: not worth a loop each */
+        gradients_with(
+            work, begin, end,
+            (struct wanted){
+                .pressure = true, .narrow = work->narrow != NULL, .composite = true, .least_squares = least_squares});
+    } else if (pressure && least_squares) {
+        gradients_of(work, begin, end, true, true);
+    } else if (least_squares) {
+        gradients_of(work, begin, end, false, true);
+    } else if (pressure) {
+        gradients_of(work, begin, end, true, false);
+    } else {
+        gradients_of(work, begin, end, false, false);
     }
 }
 
@@ -191,23 +231,10 @@ static void gradients_on_lines(const struct solver_upwind *work, size_t begin, s
 static void gradients(const struct solver_upwind *work, size_t begin, size_t end)
 {
     bool own = work->least_squares == NULL; /* the reconstruction takes the stencil's gradients */
-    bool pressure = own && work->pressure_gradient != NULL;
-    bool narrow = work->narrow != NULL;
     if (aligns_gradients(work)) {
         DIM_NAME(solver_ranks).gradients(work, begin, end, gradients_on_lines);
-    } else if (pressure && work->stride != 0) { /* rare: not worth a loop each */
-        gradients_with(work, begin, end, true, narrow, true);
-    } else if (narrow && pressure) {
-        gradients_with(work, begin, end, true, true, false);
-    } else if (narrow) {
-        gradients_with(work, begin, end, false, true, false);
-    } else if (pressure) {
-        gradients_with(work, begin, end, true, false, false);
     } else {
-        gradients_with(work, begin, end, false, false, false);
-    }
-    if (!own && work->v_gradient != NULL) {
-        least_squares_gradients(work, begin, end);
+        gradients_of_pairs(work, begin, end);
     }
     for (size_t a = begin; work->P_gradient != NULL && a < end; a++) {
         stress_gradient(work, a, own ? work->pair : work->least_squares, own ? PAIR : DIM,
