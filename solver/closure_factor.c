@@ -2,7 +2,6 @@
 #include "solver/closure.h"
 #include "solver/memory.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,9 +10,9 @@
 enum { BLOCK = 16, PIECE = 32, DEEP = 6 };
 /* Added to M's diagonal, relative to it: quadratic multipliers have no energy, and on lattices others neither.
  * Round-off of the factor is less, and what smooth multipliers have on clouds of 300 spacings is more: it falls like
- * the sixth power of the length. In 2D it serves longer ones as well: a solution there leaves up to nine tenths of the
- * last one's residuals, and on lattices iterations end before they get there. */
-static const double shift = 3e-15, longest[] = {300.0, 600.0, 300.0};
+ * the sixth power of the length. On longer ones, and on lattices that are hardly moved, those of less energy are few,
+ * and conjugate residuals with the factor find them; iterations over spline spaces do not get there. */
+static const double shift = 3e-15;
 /* Multiply-adds for a particle. Measured: beyond, iterations take less time. */
 static const double most_operations = 9e5;
 
@@ -150,28 +149,9 @@ static bool make(struct solver_closure *of, struct solver_error *error)
     return failed == 0 || solver_fail(error, SOLVER_NO_MEMORY, "no memory for the factor of a closed stencil");
 }
 
-/* Its longest side, in spacings. */
-static double length_of(const struct solver_closure *of)
-{
-    size_t lanes = of->loops->lanes;
-    double length = 0.0;
-    for (size_t axis = 0; axis < (size_t)of->cloud->dim; axis++) {
-        double low = INFINITY, high = -INFINITY;
-        for (size_t a = 0; a < of->cloud->count; a++) {
-            low = fmin(low, of->X[a * lanes + axis]);
-            high = fmax(high, of->X[a * lanes + axis]);
-        }
-        length = fmax(length, high - low);
-    }
-    return length / of->cloud->spacing;
-}
-
 bool solver_closure_factor_make(struct solver_closure *of, bool *made, struct solver_error *error)
 {
     *made = false;
-    if (length_of(of) > longest[of->cloud->dim - 1]) {
-        return true;
-    }
     if (!solver_closure_tree(of, error)) {
         return false;
     }
