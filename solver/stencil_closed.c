@@ -187,7 +187,7 @@ static bool project(struct solver_closure *work, struct solver_stencil *stencil,
             "for %zu particles a residual of %.1e of a face is left, and at most %.0e is accepted. Either "
             "there is none (few neighbours, particles moved far: choose a larger support or a smaller "
             "perturb), or iterations do not get there (a long lattice, or one whose particles are moved "
-            "by next to nothing: choose a smaller n, or perturb = 0.15)",
+            "by next to nothing: choose a support of 2.2 or more, a smaller n, or perturb = 0.15)",
             work->iterations, work->cloud->count, worst, acceptable);
     }
     return ok;
