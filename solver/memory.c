@@ -56,9 +56,9 @@ bool solver_alloc_untouched(void **out, size_t count, size_t size, const char *w
 
 bool solver_alloc(void **out, size_t count, size_t size, const char *what, struct solver_error *error)
 {
-    if (!solver_alloc_untouched(out, count, size, what, error)) {
-        return false;
+    bool ok = solver_alloc_untouched(out, count, size, what, error);
+    if (*out != NULL) {
+        memset(*out, 0, solver_alloc_bytes(count, size));
     }
-    memset(*out, 0, solver_alloc_bytes(count, size));
-    return true;
+    return ok;
 }

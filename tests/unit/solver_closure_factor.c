@@ -154,7 +154,7 @@ static void not_made(void)
 
 /* Makes the stencil of a cloud of spacings so many along axes and finds how far, in faces, it is from closure and from
  * the gradients of linear fields; INFINITY, and the error, where there is none. */
-static double left_by(int dim, int along, int across, double perturb, struct solver_error *error)
+static double left_by(int dim, int along, int across, double perturb, double support, struct solver_error *error)
 {
     struct solver_box box = {.dim = dim, .spacing = 0.05, .perturb = perturb, .seed = 1};
     for (int axis = 0; axis < dim; axis++) {
@@ -164,7 +164,7 @@ static double left_by(int dim, int along, int across, double perturb, struct sol
     struct solver_stencil *stencil = NULL;
     double worst = INFINITY, face = pow(box.spacing, dim - 1.0);
     size_t d = (size_t)dim;
-    if (solver_stencil_create(solver_stencil_find("closed"), cloud, 2.0, &stencil, error)) {
+    if (solver_stencil_create(solver_stencil_find("closed"), cloud, support, &stencil, error)) {
         double *left = calloc(cloud->count * 12, sizeof *left);
         CU_ASSERT_PTR_NOT_NULL_FATAL(left);
         worst = 0.0;
@@ -205,23 +205,28 @@ static double left_by(int dim, int along, int across, double perturb, struct sol
 static void long_bodies(void)
 {
     struct solver_error error;
-    CU_ASSERT(left_by(2, 590, 8, 0.0, &error) < 2e-13);
-    CU_ASSERT(left_by(2, 900, 8, 0.0, &error) < 2e-13);
-    CU_ASSERT(left_by(1, 3000, 0, 0.0, &error) < 2e-12);
-    CU_ASSERT(left_by(2, 900, 8, 0.15, &error) < 2e-13);
+    CU_ASSERT(left_by(2, 590, 8, 0.0, 2.0, &error) < 2e-13);
+    CU_ASSERT(left_by(2, 900, 8, 0.0, 2.0, &error) < 2e-13);
+    CU_ASSERT(left_by(1, 3000, 0, 0.0, 2.0, &error) < 2e-12);
+    CU_ASSERT(left_by(2, 900, 8, 0.15, 2.0, &error) < 2e-13);
 }
 
-/* Lattices that are hardly moved: multipliers along one axis have next to no energy. Where they have too little, that
- * is said. */
+/* Lattices that are hardly moved: multipliers along one axis have next to no energy. */
 static void hardly_moved(void)
 {
     struct solver_error error;
-    CU_ASSERT(left_by(2, 30, 30, 1e-3, &error) < 2e-13);
-    CU_ASSERT(left_by(2, 30, 30, 1e-5, &error) < 2e-13);
-    CU_ASSERT(left_by(2, 30, 30, 1e-6, &error) < 2e-13);
-    CU_ASSERT(left_by(3, 5, 5, 1e-7, &error) < 2e-13);
-    CU_ASSERT(left_by(2, 16, 16, 1e-8, &error) > 1.0);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "or iterations do not get there (a long lattice"));
+    CU_ASSERT(left_by(2, 30, 30, 1e-3, 2.0, &error) < 2e-13);
+    CU_ASSERT(left_by(2, 30, 30, 1e-5, 2.0, &error) < 2e-13);
+    CU_ASSERT(left_by(2, 30, 30, 1e-6, 2.0, &error) < 2e-13);
+    CU_ASSERT(left_by(3, 5, 5, 1e-7, 2.0, &error) < 2e-13);
+}
+
+/* Few neighbours, moved far: there is no solution, and that is said. */
+static void none_there(void)
+{
+    struct solver_error error = {.text = ""};
+    CU_ASSERT(left_by(2, 12, 12, 0.1, 1.3, &error) > 1.0);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.text, "Either there is none (few neighbours"));
 }
 
 /* Rounds of conjugate residuals with the factor: pair vectors, the caller frees. */
@@ -269,6 +274,7 @@ int main(void)
         {"none where it costs too much", not_made},
         {"long bodies", long_bodies},
         {"lattices that are hardly moved", hardly_moved},
+        {"none where there is no solution", none_there},
         {"rounds: the same bytes for 1 and 3 threads and on both wide paths", same_rounds},
     };
     return unit_main("solver closure factor", tests, sizeof tests / sizeof *tests);
