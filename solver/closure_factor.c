@@ -13,8 +13,8 @@ enum { BLOCK = 16, PIECE = 32, DEEP = 6, GROUP = 2 };
  * the sixth power of the length. On longer ones, and on lattices that are hardly moved, those of less energy are few,
  * and conjugate residuals with the factor find them; iterations over spline spaces do not get there. */
 static const double shift = 3e-15;
-/* Multiply-adds for a particle. Measured: beyond, iterations take less time. */
-static const double most_operations = 9e5;
+/* Numbers in U: 10 GB, beyond which many a machine has none. */
+static const size_t most_numbers = (size_t)1250 << 20;
 
 /* --- elimination --- */
 
@@ -168,13 +168,13 @@ static bool make(struct solver_closure *of, struct solver_error *error)
     return true;
 }
 
-bool solver_closure_factor_make(struct solver_closure *of, bool *made, struct solver_error *error)
+bool solver_closure_factor_make(struct solver_closure *of, double most, bool *made, struct solver_error *error)
 {
     *made = false;
     if (!solver_closure_tree(of, error)) {
         return false;
     }
-    *made = of->factor.operations <= most_operations * (double)of->cloud->count;
+    *made = of->factor.operations <= most * (double)of->cloud->count && of->factor.size <= most_numbers;
     return !*made || make(of, error);
 }
 
