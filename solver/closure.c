@@ -14,6 +14,9 @@ enum { SMOOTH = 6, GRID_SMOOTH = 2, PATIENCE = 40 };
 static const double largest = 2.0;
 /* The cycle rounds to single precision, and z, moved step by step, is made anew when the residual has fallen so far. */
 static const double anew = 1e-3;
+/* With a factor, what is left is smooth, and the largest residual tells nothing of it: z . M z does, and has fallen as
+ * far as round-off lets it when sqrt(z . M z) is this part of what it was. */
+static const double few = 1e-6;
 /* Pairs that smoothing takes for what they weigh on the diagonal: of less than this part of the heaviest. Measured:
  * iterations stay what they are, to within one in seventy. */
 static const double hardly = 1e-2;
@@ -202,6 +205,25 @@ double solver_closure_largest(const struct solver_closure *of, const double *r)
     return finite ? most : NAN;
 }
 
+/* z = approximately M^-1 r. */
+static void precondition(struct solver_closure *of, const double *r, double *z)
+{
+    if (of->factor.U != NULL) {
+        solver_closure_substitute(of, r, z);
+    } else {
+        solver_closure_cycle(of, r, z);
+    }
+}
+
+static double total(const double sum[4], size_t lanes)
+{
+    double of_all = 0.0;
+    for (size_t lane = 0; lane < lanes; lane++) {
+        of_all += sum[lane];
+    }
+    return of_all;
+}
+
 double solver_closure_solve(struct solver_closure *of, double enough, int most)
 {
     const struct solver_closure_loops *loops = of->loops;
@@ -212,13 +234,15 @@ double solver_closure_solve(struct solver_closure *of, double enough, int most)
     double back[4] __attribute__((aligned(64))) = {0};
     double left = solver_closure_largest(of, of->residual), best = left, refreshed = left;
     memset(of->solution, 0, bytes);
-    solver_closure_cycle(of, of->residual, of->z);
+    precondition(of, of->residual, of->z);
     OVER_PIECES(count, loops->apply(of, of->z, of->z_image, at.begin, at.end));
     dot(of, of->z, of->z_image, square);
     memcpy(of->direction, of->z, bytes);
     memcpy(of->image, of->z_image, bytes);
+    bool direct = of->factor.U != NULL;
+    double first = total(square, loops->lanes), least = first;
     for (int i = 0, since = 0; i < most && left > enough && since < PATIENCE; i++, since++) {
-        solver_closure_cycle(of, of->image, of->back);
+        precondition(of, of->image, of->back);
         dot(of, of->image, of->back, curve);
         ratio(of, 1.0, square, curve, factor);
         ratio(of, -1.0, square, curve, back);
@@ -227,7 +251,7 @@ double solver_closure_solve(struct solver_closure *of, double enough, int most)
                     loops->add(of, back, of->back, of->z, at.begin, at.end));
         left = solver_closure_largest(of, of->residual);
         if (left < anew * refreshed) {
-            solver_closure_cycle(of, of->residual, of->z);
+            precondition(of, of->residual, of->z);
             refreshed = left;
         }
         OVER_PIECES(count, loops->apply(of, of->z, of->z_image, at.begin, at.end));
@@ -240,6 +264,13 @@ double solver_closure_solve(struct solver_closure *of, double enough, int most)
         if (left < 0.5 * best) {
             best = left;
             since = 0;
+        }
+        if (direct && total(square, loops->lanes) < 0.5 * least) {
+            least = total(square, loops->lanes);
+            since = 0;
+            if (least <= few * few * first) {
+                break;
+            }
         }
     }
     return left;

@@ -2,20 +2,19 @@
 #include "solver/closure.h"
 #include "solver/memory.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows that are eliminated at a time, rows of a piece of work, and the depth from which on nodes have few rows and
- * whole subtrees go at a time. */
-enum { BLOCK = 16, PIECE = 32, DEEP = 6 };
+/* Rows that are eliminated at a time, rows of a piece of work, the depth of subtrees that are one thread's, and of
+ * those that go one after the other. */
+enum { BLOCK = 16, PIECE = 32, DEEP = 6, GROUP = 2 };
 /* Added to M's diagonal, relative to it: quadratic multipliers have no energy, and on lattices others neither.
  * Round-off of the factor is less, and what smooth multipliers have on clouds of 300 spacings is more: it falls like
- * the sixth power of the length. In 2D it serves longer ones as well: a solution there leaves up to nine tenths of the
- * last one's residuals, and on lattices iterations end before they get there. */
-static const double shift = 3e-15, longest[] = {300.0, 600.0, 300.0};
-/* Multiply-adds for a particle. Measured: beyond, iterations take less time. */
-static const double most_operations = 9e5;
+ * the sixth power of the length. On longer ones, and on lattices that are hardly moved, those of less energy are few,
+ * and conjugate residuals with the factor find them; iterations over spline spaces do not get there. */
+static const double shift = 3e-15;
+/* Numbers in U: 10 GB, beyond which many a machine has none. */
+static const size_t most_numbers = (size_t)1250 << 20;
 
 /* --- elimination --- */
 
@@ -107,7 +106,11 @@ static bool eliminate(struct solver_closure *of, size_t index, struct solver_err
     if (factor->left[index] == NULL) {
         return solver_fail(error, SOLVER_NO_MEMORY, "no memory for the factor of a closed stencil");
     }
-    memset(factor->left[index], 0, bytes);
+    memset(rows, 0, front.own * front.length * sizeof *rows);
+    for (size_t i = 0; i < front.border; i++) { /* what comes before is never looked at */
+        size_t from = i / SOLVER_FRONT_PAD * SOLVER_FRONT_PAD;
+        memset(factor->left[index] + i * front.left_length + from, 0, (front.left_length - from) * sizeof *rows);
+    }
     loops->assemble(of, index, shift, rows);
     struct target to = {rows, factor->left[index], front};
     for (size_t last = index; last > node->first; last = factor->node[last - 1].first) {
@@ -125,24 +128,20 @@ static bool eliminate(struct solver_closure *of, size_t index, struct solver_err
     return true;
 }
 
-static bool make(struct solver_closure *of, struct solver_error *error)
+/* A subtree: those deep in it in parallel, the others in turn. One after the other, since what all of a depth leave on
+ * their borders takes as much memory as the factor. */
+static bool eliminate_group(struct solver_closure *of, size_t last, struct solver_error *error)
 {
-    struct solver_closure_factor *factor = &of->factor;
-    size_t block = factor->width * of->loops->lanes, failed = 0;
-    if (!solver_alloc((void **)&factor->U, factor->size, sizeof(double), "factor", error) ||
-        !solver_alloc((void **)&factor->left, factor->node_count, sizeof *factor->left, "factor", error) ||
-        !solver_alloc((void **)&factor->x, of->cloud->count * block, sizeof(double), "factor", error) ||
-        !solver_alloc((void **)&factor->carried, factor->border_total * block, sizeof(double), "factor", error)) {
-        return false;
-    }
+    const struct solver_closure_factor *factor = &of->factor;
+    size_t failed = 0;
 #pragma omp parallel for schedule(dynamic) reduction(+ : failed)
-    for (size_t n = 0; n < factor->node_count; n++) {
+    for (size_t n = factor->node[last].first; n <= last; n++) {
         struct solver_error of_node;
         for (size_t in = factor->node[n].first; factor->node[n].depth == DEEP && in <= n && failed == 0; in++) {
             failed += !eliminate(of, in, &of_node);
         }
     }
-    for (size_t n = 0; n < factor->node_count && failed == 0; n++) {
+    for (size_t n = factor->node[last].first; n <= last && failed == 0; n++) {
         if (factor->node[n].depth < DEEP && !eliminate(of, n, error)) {
             return false;
         }
@@ -150,32 +149,32 @@ static bool make(struct solver_closure *of, struct solver_error *error)
     return failed == 0 || solver_fail(error, SOLVER_NO_MEMORY, "no memory for the factor of a closed stencil");
 }
 
-/* Its longest side, in spacings. */
-static double length_of(const struct solver_closure *of)
+static bool make(struct solver_closure *of, struct solver_error *error)
 {
-    size_t lanes = of->loops->lanes;
-    double length = 0.0;
-    for (size_t axis = 0; axis < (size_t)of->cloud->dim; axis++) {
-        double low = INFINITY, high = -INFINITY;
-        for (size_t a = 0; a < of->cloud->count; a++) {
-            low = fmin(low, of->X[a * lanes + axis]);
-            high = fmax(high, of->X[a * lanes + axis]);
-        }
-        length = fmax(length, high - low);
+    struct solver_closure_factor *factor = &of->factor;
+    size_t block = factor->width * of->loops->lanes;
+    if (!solver_alloc_untouched((void **)&factor->U, factor->size, sizeof(double), "factor", error) ||
+        !solver_alloc((void **)&factor->left, factor->node_count, sizeof *factor->left, "factor", error) ||
+        !solver_alloc((void **)&factor->x, of->cloud->count * block, sizeof(double), "factor", error) ||
+        !solver_alloc((void **)&factor->carried, factor->border_total * block, sizeof(double), "factor", error)) {
+        return false;
     }
-    return length / of->cloud->spacing;
+    for (size_t n = 0; n < factor->node_count; n++) {
+        if (factor->node[n].depth == GROUP ? !eliminate_group(of, n, error)
+                                           : factor->node[n].depth < GROUP && !eliminate(of, n, error)) {
+            return false;
+        }
+    }
+    return true;
 }
 
-bool solver_closure_factor_make(struct solver_closure *of, bool *made, struct solver_error *error)
+bool solver_closure_factor_make(struct solver_closure *of, double most, bool *made, struct solver_error *error)
 {
     *made = false;
-    if (length_of(of) > longest[of->cloud->dim - 1]) {
-        return true;
-    }
     if (!solver_closure_tree(of, error)) {
         return false;
     }
-    *made = of->factor.operations <= most_operations * (double)of->cloud->count;
+    *made = of->factor.operations <= most * (double)of->cloud->count && of->factor.size <= most_numbers;
     return !*made || make(of, error);
 }
 

@@ -89,9 +89,9 @@ SOLVER_DECLARE_LOOPS(struct solver_front_loops, solver_front);
 
 /* The tree of a cloud, from which its costs are known. */
 bool solver_closure_tree(struct solver_closure *of, struct solver_error *error);
-/* The factor, where it takes few operations, and M has more than round-off left of smooth multipliers: *made says
- * whether. Weights are filled in before. */
-bool solver_closure_factor_make(struct solver_closure *of, bool *made, struct solver_error *error);
+/* The factor, where it takes so many multiply-adds for a particle at most, and no more memory than there may be: *made
+ * says whether. Weights are filled in before. */
+bool solver_closure_factor_make(struct solver_closure *of, double most, bool *made, struct solver_error *error);
 /* z = (M + shift)^-1 r. */
 void solver_closure_substitute(struct solver_closure *of, const double *r, double *z);
 void solver_closure_factor_free(struct solver_closure_factor *of);

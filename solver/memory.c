@@ -35,7 +35,7 @@ size_t solver_alloc_bytes(size_t count, size_t size)
     return is_large(bytes) ? (bytes + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE : bytes;
 }
 
-bool solver_alloc(void **out, size_t count, size_t size, const char *what, struct solver_error *error)
+bool solver_alloc_untouched(void **out, size_t count, size_t size, const char *what, struct solver_error *error)
 {
     size_t bytes = solver_alloc_bytes(count, size);
     *out = NULL;
@@ -51,6 +51,14 @@ bool solver_alloc(void **out, size_t count, size_t size, const char *what, struc
     if (is_large(bytes)) {
         (void)madvise(*out, bytes, MADV_HUGEPAGE); /* where it is refused, all works as well */
     }
-    memset(*out, 0, bytes);
     return true;
+}
+
+bool solver_alloc(void **out, size_t count, size_t size, const char *what, struct solver_error *error)
+{
+    bool ok = solver_alloc_untouched(out, count, size, what, error);
+    if (*out != NULL) {
+        memset(*out, 0, solver_alloc_bytes(count, size));
+    }
+    return ok;
 }

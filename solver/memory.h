@@ -10,6 +10,8 @@
  * free() releases. A count of 0 gives a valid pointer. On failure *out is NULL and the error says how much was asked
  * for and for what. */
 bool solver_alloc(void **out, size_t count, size_t size, const char *what, struct solver_error *error);
+/* The same, but holding anything: for what is written piece by piece, each by the thread that needs it. */
+bool solver_alloc_untouched(void **out, size_t count, size_t size, const char *what, struct solver_error *error);
 /* Bytes that such an array takes, rounded up for the alignment; at most SIZE_MAX. */
 size_t solver_alloc_bytes(size_t count, size_t size);
 /* Bytes of the cache of level 2 or 3; 0 where the system does not tell. */

@@ -17,16 +17,23 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Rounds, iterations in each, and how far a round goes: multipliers of smooth changes are large, and their differences
- * lose that many digits. */
-enum { ROUNDS = 12, ITERATIONS = 1000 };
+/* Rounds, iterations in each, rounds with a factor that may pass before the residual is halved, and how far a round
+ * without one goes: multipliers of smooth changes are large, and their differences lose that many digits. */
+enum { ROUNDS = 12, ITERATIONS = 1000, PATIENCE = 3 };
 static const double per_round = 1e-8;
 /* Residual, relative to a particle's face, that counts as round-off. */
 static const double round_off = 2e-14;
-/* A factor's solutions are kept if they leave less; otherwise iterations begin at the first guess. What they would
- * make of the rest is no better: it is where multipliers hardly change pairs. */
-static const double spoilt = 1e-12;
-/* Residual that is still accepted, with its size reported: NUMERICS.md found no effect on errors at 1e-6. */
+/* What a factor's solution leaves at most of the last one's residuals, if another is to follow; and where less than
+ * this is left, they are enough: what rounds would make of the rest is no better, it is where multipliers hardly change
+ * pairs. */
+static const double little = 0.25, spoilt = 1e-12;
+/* Rounds with a factor end where they leave less than this and no longer halve it. */
+static const double fair = 1e-10;
+/* Multiply-adds of a factor for a particle. Measured: beyond, iterations take less time; and where these do not get
+ * there, seconds are well spent. */
+static const double cheap = 9e5, dear = 1e7;
+/* Residual that is still accepted, with its size reported: NUMERICS.md found no effect on errors at 1e-6. A factor that
+ * leaves more is given up, and iterations begin at the first guess. */
 static const double acceptable = 1e-9;
 
 static double face_of(const struct solver_cloud *cloud)
@@ -70,23 +77,54 @@ static void project_by_rounds(struct solver_closure *work, struct solver_stencil
     }
 }
 
-/* Where the multipliers' equation has a factor, each solution with it leaves next to nothing of the residuals, until
- * what round-off and the factor's shift have spoilt is all that is left. Nothing is done
- * where there is no factor: it would cost more than iterations do, or there is no memory for it. */
-static void project_directly(struct solver_closure *work, struct solver_stencil *stencil, const double *area,
-                             double *worst)
+/* The factor's solutions, one after the other, while each leaves little of the residuals. */
+static void project_by_solutions(struct solver_closure *work, struct solver_stencil *stencil, const double *area,
+                                 double *worst)
+{
+    for (double before = INFINITY; *worst > round_off && *worst < (*worst < spoilt ? 0.5 : little) * before;) {
+        solver_closure_substitute(work, work->residual, work->solution);
+        change(work, stencil);
+        before = *worst;
+        *worst = residuals(work, stencil, area);
+    }
+}
+
+/* Conjugate residuals with the factor, where smooth multipliers, or on lattices that are hardly moved those along an
+ * axis, have less energy than its shift. These multipliers are large, and a round leaves their round-off, which is
+ * rough and may be more than the residuals that it began with: the next one takes it away. */
+static void project_by_factor(struct solver_closure *work, struct solver_stencil *stencil, const double *area,
+                              double *worst)
+{
+    double best = *worst;
+    for (int round = 0, since = 0; *worst > round_off && round < ROUNDS && since < PATIENCE; round++, since++) {
+        (void)solver_closure_solve(work, 0.5 * round_off, ITERATIONS);
+        change(work, stencil);
+        *worst = residuals(work, stencil, area);
+        if (*worst < 0.5 * best) {
+            best = *worst;
+            since = -1;
+        } else if (*worst < fair) {
+            return;
+        }
+    }
+}
+
+/* Where the multipliers' equation has a factor, until what round-off has spoilt is all that is left. Nothing is done,
+ * and false returned, where there is none: it would cost more than `most`, or there is no memory for it. */
+static bool project_directly(struct solver_closure *work, struct solver_stencil *stencil, const double *area,
+                             double most, double *worst)
 {
     bool made = false;
     struct solver_error lacking;
-    if (solver_closure_factor_make(work, &made, &lacking) && made) {
-        for (double before = INFINITY; *worst > round_off && *worst < (*worst < spoilt ? 0.5 : 0.9) * before;) {
-            solver_closure_substitute(work, work->residual, work->solution);
-            change(work, stencil);
-            before = *worst;
-            *worst = residuals(work, stencil, area);
+    made = solver_closure_factor_make(work, most, &made, &lacking) && made;
+    if (made) {
+        project_by_solutions(work, stencil, area, worst);
+        if (*worst >= spoilt) {
+            project_by_factor(work, stencil, area, worst);
         }
     }
     solver_closure_factor_free(&work->factor);
+    return made;
 }
 
 /* First guess: antisymmetric part of V_a g_ab, kernel sums with equal volumes. The particles' own volumes there (half
@@ -138,12 +176,19 @@ static bool project(struct solver_closure *work, struct solver_stencil *stencil,
     }
     bool ok = true;
     double worst = residuals(work, stencil, area);
-    project_directly(work, stencil, area, &worst);
-    if (!(worst < spoilt)) {
+    bool tried = project_directly(work, stencil, area, cheap, &worst);
+    if (!(worst < acceptable)) {
         ok = guess(work, stencil, radius, error) && solver_closure_ready(work, radius, error);
         worst = residuals(work, stencil, area);
         if (ok) {
             project_by_rounds(work, stencil, area, &worst);
+        }
+    }
+    if (ok && !tried && !(worst < acceptable)) {
+        ok = guess(work, stencil, radius, error);
+        worst = residuals(work, stencil, area);
+        if (ok) {
+            (void)project_directly(work, stencil, area, dear, &worst);
         }
     }
     free(area);
@@ -154,7 +199,7 @@ static bool project(struct solver_closure *work, struct solver_stencil *stencil,
             "for %zu particles a residual of %.1e of a face is left, and at most %.0e is accepted. Either "
             "there is none (few neighbours, particles moved far: choose a larger support or a smaller "
             "perturb), or iterations do not get there (a long lattice, or one whose particles are moved "
-            "by next to nothing: choose a smaller n, or perturb = 0.15)",
+            "by next to nothing: choose a support of 2.2 or more, a smaller n, or perturb = 0.15)",
             work->iterations, work->cloud->count, worst, acceptable);
     }
     return ok;
