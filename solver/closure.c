@@ -9,14 +9,14 @@
 
 /* Products with the matrix before and after a coarser space's correction, and iterations that may pass before the
  * residual is halved. Measured: fewer and more products, or other bounds, cost as much or more. */
-enum { SMOOTH = 6, GRID_SMOOTH = 2, PATIENCE = 40 };
+enum { SMOOTH = 6, GRID_SMOOTH = 2, GRID_MORE = 4, PATIENCE = 40 };
 /* Bound of the eigenvalues of M over its diagonal blocks: on a pair, (x + y)^2 <= 2 x^2 + 2 y^2. */
 static const double largest = 2.0;
 /* The cycle rounds to single precision, and z, moved step by step, is made anew when the residual has fallen so far. */
 static const double anew = 1e-3;
 /* Pairs that smoothing takes for what they weigh on the diagonal: of less than this part of the heaviest. Measured:
  * iterations stay what they are, to within one in seventy. */
-static const double hardly = 1e-2;
+static const double hardly = 5e-2;
 
 static size_t width_of(const struct solver_closure *of)
 {
@@ -91,12 +91,14 @@ static void solve_dense(struct solver_closure_grid *grid, size_t lanes)
     }
 }
 
-/* Takes steps until GRID_SMOOTH, grid->d being the step before `first`; the last leaves no residual where none is
- * asked for. */
-static void grid_smooth(const struct solver_closure *of, struct solver_closure_grid *grid, int first, bool residual)
+/* Takes all steps from `first` on, grid->d being the step before it; the last leaves no residual where none is asked
+ * for. */
+static void grid_smooth(struct solver_closure *of, int level, int first, bool residual)
 {
-    for (int i = first; i < GRID_SMOOTH + residual; i++) {
-        double *next = i < GRID_SMOOTH ? grid->next : NULL;
+    struct solver_closure_grid *grid = &of->grid[level];
+    int steps = GRID_SMOOTH + GRID_MORE * level;
+    for (int i = first; i < steps + residual; i++) {
+        double *next = i < steps ? grid->next : NULL;
         OVER_PIECES(grid->count, of->loops->grid_smooth(grid, keep_of(i), factor_of(i) / grid->largest, grid->d,
                                                         grid->x, grid->r, next, at.begin, at.end));
         swap(&grid->d, &grid->next);
@@ -121,23 +123,23 @@ static void grid_cycle(struct solver_closure *of, int level)
         grid->x[n] = 0.0;
         grid->d[n] = factor * grid->diagonal[n / lanes] * grid->r[n];
     }
-    grid_smooth(of, grid, 1, true);
+    grid_smooth(of, level, 1, true);
     OVER_PIECES(coarse->count, of->loops->grid_sum(grid, grid->r, coarse->r, at.begin, at.end));
     grid_cycle(of, level + 1);
     memset(grid->d, 0, grid->count * lanes * sizeof(double));
     OVER_PIECES(grid->count, of->loops->grid_spread(grid, coarse->x, grid->d, at.begin, at.end));
-    grid_smooth(of, grid, 0, false);
+    grid_smooth(of, level, 0, false);
 }
 
-/* The same on the particles, all steps but the first; the last is left to be made. */
+/* The same on the particles, all steps but the first. */
 static void smooth(struct solver_closure *of)
 {
     for (int i = 1; i < SMOOTH; i++) {
         OVER_PIECES(of->cloud->count,
                     of->smoother->smooth(of, (float)keep_of(i), (float)(factor_of(i) / largest), at.begin, at.end));
-        float *kept = of->step;
-        of->step = of->next;
-        of->next = kept;
+        float *kept = of->now;
+        of->now = of->last;
+        of->last = kept;
     }
 }
 
@@ -149,12 +151,10 @@ void solver_closure_cycle(struct solver_closure *of, const double *r, double *z)
     const struct solver_closure_smoother *smoother = of->smoother;
     size_t count = of->cloud->count;
     float factor = (float)(factor_of(0) / largest);
-    memset(z, 0, count * width_of(of) * sizeof(double));
-    memset(of->z_image, 0, count * width_of(of) * sizeof(double));
     for (int half = 0; half < 2; half++) {
-        OVER_PIECES(count, smoother->start(of, factor, r, of->z_image, at.begin, at.end));
+        OVER_PIECES(count, smoother->start(of, factor, r, half > 0 ? of->z_image : NULL, at.begin, at.end));
         smooth(of);
-        OVER_PIECES(count, smoother->finish(of, z, at.begin, at.end));
+        OVER_PIECES(count, smoother->finish(of, half > 0, z, at.begin, at.end));
         if (half == 0) {
             OVER_PIECES(count, loops->apply(of, z, of->z_image, at.begin, at.end));
             OVER_PIECES(of->cell_count, loops->sum_cells(of, r, of->z_image, at.begin, at.end));
@@ -262,7 +262,7 @@ bool solver_closure_open(struct solver_closure *of, const struct solver_cloud *c
     size_t room = count * (dim + 1) * lanes;
     double **const vectors[] = {&of->residual, &of->solution, &of->direction, &of->image,
                                 &of->z,        &of->z_image,  &of->back};
-    float **const narrow[] = {&of->change, &of->left, &of->step, &of->next};
+    float **const narrow[] = {&of->rest, &of->now, &of->last};
     for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
         if (!solver_alloc((void **)vectors[i], room, sizeof(double), "multipliers", error)) {
             return false;
@@ -276,7 +276,6 @@ bool solver_closure_open(struct solver_closure *of, const struct solver_cloud *c
     if (!solver_alloc((void **)&of->X, count * lanes, sizeof(double), "places", error) ||
         !solver_alloc((void **)&of->weight, graph->row[count], sizeof(double), "pair weights", error) ||
         !solver_alloc((void **)&of->strong_row, count + 1, sizeof *of->strong_row, "pair weights", error) ||
-        !solver_alloc((void **)&of->own, count * 16, sizeof(float), "diagonal blocks", error) ||
         !solver_alloc((void **)&of->inverse, count * 16, sizeof(float), "diagonal blocks", error) ||
         !solver_alloc((void **)&of->partial, solver_pieces(count) * lanes, sizeof(double), "sums", error)) {
         return false;
@@ -330,16 +329,14 @@ void solver_closure_close(struct solver_closure *of)
     free(of->z);
     free(of->z_image);
     free(of->back);
-    free(of->change);
-    free(of->left);
-    free(of->step);
-    free(of->next);
+    free(of->rest);
+    free(of->now);
+    free(of->last);
     free(of->X);
     free(of->weight);
     free(of->strong_row);
     free(of->strong);
     free(of->pair);
-    free(of->own);
     free(of->inverse);
     free(of->partial);
 }

@@ -379,14 +379,15 @@ static void grid_smooth(const struct solver_closure_grid *grid, double keep, dou
 {
     for (size_t i = begin; i < end; i++) {
         vec part[4] = {{0}}; /* sums that do not wait for each other */
-        size_t ij = grid->row[i];
-        for (; ij + 4 <= grid->row[i + 1]; ij += 4) {
-            for (size_t n = 0; n < 4; n++) {
-                part[n] += grid->value[ij + n] * load(d + (size_t)grid->column[ij + n] * LANES);
+        for (size_t line = grid->row[i]; line < grid->row[i + 1]; line++) {
+            const double *from = d + (size_t)grid->column[line] * LANES;
+            double value[SOLVER_CLOSURE_LINE];
+            for (size_t n = 0; n < SOLVER_CLOSURE_LINE; n++) {
+                value[n] = (double)grid->value[line * SOLVER_CLOSURE_LINE + n];
             }
-        }
-        for (; ij < grid->row[i + 1]; ij++) {
-            part[0] += grid->value[ij] * load(d + (size_t)grid->column[ij] * LANES);
+            for (size_t n = 0; n < SPAN; n++) {
+                part[n % 4] += value[n] * load(from + n * LANES);
+            }
         }
         vec sum = (part[0] + part[1]) + (part[2] + part[3]);
         store(x + i * LANES, load(x + i * LANES) + load(d + i * LANES));

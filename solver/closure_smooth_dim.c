@@ -94,23 +94,25 @@ static inline struct narrow times_block(const float *block, struct narrow v)
     return out;
 }
 
-/* (M u)_a, weak pairs' own parts only */
-static inline struct narrow image_of(const struct solver_closure *of, const float *u, size_t a)
+/* What particle a has of M u from its neighbours. Two sums do not wait for each other. */
+static inline struct narrow from_others(const struct solver_closure *of, const float *u, size_t a)
 {
     static const float flip[FOUR] __attribute__((aligned(16))) = {-1.0f, 1.0f, 1.0f, 1.0f};
-    struct narrow sum = {{{0}}};
-    for (size_t ab = of->strong_row[a]; ab < of->strong_row[a + 1]; ab++) {
-        const float *u_b = u + (size_t)of->strong[ab] * NARROW;
-        part c = in_each(of->pair + ab * FOUR);
-        for (int p = 0; p < PARTS; p++) {
-            sum.of[p] += c * column_sum(c * *(const part *)(u_b + p * PART));
+    struct narrow sum[2] = {{{{0}}}};
+    size_t end = of->strong_row[a + 1];
+    for (size_t ab = of->strong_row[a]; ab < end; ab += 2) {
+        for (size_t n = 0; n < 2 && ab + n < end; n++) {
+            const float *u_b = u + (size_t)of->strong[ab + n] * NARROW;
+            part c = in_each(of->pair + (ab + n) * FOUR);
+            for (int p = 0; p < PARTS; p++) {
+                sum[n].of[p] += c * column_sum(c * *(const part *)(u_b + p * PART));
+            }
         }
     }
-    struct narrow own = times_block(of->own + a * FOUR * FOUR, load_narrow(u + a * NARROW));
     for (int p = 0; p < PARTS; p++) {
-        own.of[p] += in_each(flip) * sum.of[p];
+        sum[0].of[p] = in_each(flip) * (sum[0].of[p] + sum[1].of[p]);
     }
-    return own;
+    return sum[0];
 }
 
 /* --- what stays --- */
@@ -151,7 +153,6 @@ static void prepare(struct solver_closure *of, size_t begin, size_t end)
                 }
             }
         }
-        to_narrow(block, of->own + a * FOUR * FOUR);
         /* a block that is singular to round-off: what its neighbours cannot meet is refused by the residual */
         double kept[4][4];
         memcpy(kept, block, sizeof block);
@@ -194,19 +195,19 @@ static void start(const struct solver_closure *of, float factor, const double *r
 {
     unsigned kept = begin_flush();
     for (size_t a = begin; a < end; a++) {
-        float *left = of->left + a * NARROW;
+        float *rest = of->rest + a * NARROW;
         for (size_t k = 0; k < DIM; k++) {
             for (size_t i = 0; i < WIDTH; i++) {
                 size_t at = a * BLOCK + i * LANES + k;
-                left[k * FOUR + i] = (float)(r[at] - image[at]);
+                rest[k * FOUR + i] = (float)(image == NULL ? r[at] : r[at] - image[at]);
             }
         }
-        struct narrow z = times_block(of->inverse + a * FOUR * FOUR, load_narrow(left));
+        struct narrow x = times_block(of->inverse + a * FOUR * FOUR, load_narrow(rest));
         for (int p = 0; p < PARTS; p++) {
-            z.of[p] *= factor;
+            x.of[p] *= factor;
         }
-        store_narrow(of->step + a * NARROW, z);
-        store_narrow(of->change + a * NARROW, (struct narrow){{{0}}});
+        store_narrow(of->now + a * NARROW, x);
+        store_narrow(of->last + a * NARROW, (struct narrow){{{0}}});
     }
     end_flush(kept);
 }
@@ -215,33 +216,31 @@ static void smooth(const struct solver_closure *of, float keep, float factor, si
 {
     unsigned kept = begin_flush();
     for (size_t a = begin; a < end; a++) {
-        struct narrow image = image_of(of, of->step, a);
-        struct narrow x = load_narrow(of->change + a * NARROW);
-        struct narrow r = load_narrow(of->left + a * NARROW);
-        struct narrow d = load_narrow(of->step + a * NARROW);
+        struct narrow rest = load_narrow(of->rest + a * NARROW);
+        struct narrow others = from_others(of, of->now, a);
+        struct narrow x = load_narrow(of->now + a * NARROW), last = load_narrow(of->last + a * NARROW);
         for (int p = 0; p < PARTS; p++) {
-            x.of[p] += d.of[p];
-            r.of[p] -= image.of[p];
+            rest.of[p] -= others.of[p];
         }
-        struct narrow z = times_block(of->inverse + a * FOUR * FOUR, r);
+        struct narrow own = times_block(of->inverse + a * FOUR * FOUR, rest);
         for (int p = 0; p < PARTS; p++) {
-            z.of[p] = keep * d.of[p] + factor * z.of[p];
+            last.of[p] = x.of[p] + keep * (x.of[p] - last.of[p]) + factor * (own.of[p] - x.of[p]);
         }
-        store_narrow(of->change + a * NARROW, x);
-        store_narrow(of->left + a * NARROW, r);
-        store_narrow(of->next + a * NARROW, z);
+        store_narrow(of->last + a * NARROW, last);
     }
     end_flush(kept);
 }
 
-static void finish(const struct solver_closure *of, double *z, size_t begin, size_t end)
+static void finish(const struct solver_closure *of, bool add, double *z, size_t begin, size_t end)
 {
     for (size_t a = begin; a < end; a++) {
-        const float *x = of->change + a * NARROW, *d = of->step + a * NARROW;
+        const float *x = of->now + a * NARROW;
         for (size_t i = 0; i < WIDTH; i++) {
+            vec sum = add ? load(z + a * BLOCK + i * LANES) : splat(0.0);
             for (size_t k = 0; k < DIM; k++) {
-                z[a * BLOCK + i * LANES + k] += (double)(x[k * FOUR + i] + d[k * FOUR + i]);
+                sum[k] += (double)x[k * FOUR + i];
             }
+            store(z + a * BLOCK + i * LANES, sum);
         }
     }
 }

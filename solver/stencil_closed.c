@@ -72,8 +72,8 @@ static void project_by_rounds(struct solver_closure *work, struct solver_stencil
 
 /* Where the multipliers' equation has a factor, each solution with it leaves next to nothing of the residuals, until
  * what round-off and the factor's shift have spoilt is all that is left. Nothing is done
- * where there is no factor: it would cost more than iterations do, or there is no memory for it. */
-static void project_directly(struct solver_closure *work, struct solver_stencil *stencil, const double *area,
+ * and false returned where there is no factor: it would cost more than iterations do, or there is no memory for it. */
+static bool project_directly(struct solver_closure *work, struct solver_stencil *stencil, const double *area,
                              double *worst)
 {
     bool made = false;
@@ -87,6 +87,7 @@ static void project_directly(struct solver_closure *work, struct solver_stencil 
         }
     }
     solver_closure_factor_free(&work->factor);
+    return made;
 }
 
 /* First guess: antisymmetric part of V_a g_ab, kernel sums with equal volumes. The particles' own volumes there (half
@@ -138,9 +139,9 @@ static bool project(struct solver_closure *work, struct solver_stencil *stencil,
     }
     bool ok = true;
     double worst = residuals(work, stencil, area);
-    project_directly(work, stencil, area, &worst);
+    bool tried = project_directly(work, stencil, area, &worst);
     if (!(worst < spoilt)) {
-        ok = guess(work, stencil, radius, error) && solver_closure_ready(work, radius, error);
+        ok = (!tried || guess(work, stencil, radius, error)) && solver_closure_ready(work, radius, error);
         worst = residuals(work, stencil, area);
         if (ok) {
             project_by_rounds(work, stencil, area, &worst);
