@@ -33,6 +33,7 @@ struct solver_closure_grid {
     size_t *row;              /* [count + 1] the matrix: first line along axis 0 of each spline's */
     uint32_t *column;         /* [lines] the first spline of each line, behind which the others follow */
     float *value;             /* [lines][SOLVER_CLOSURE_LINE] zeros where a line is shorter */
+    double *exact;            /* the same; until the next grid is made of it, or the factor */
     double *diagonal;         /* [count] its inverse */
     uint32_t *parent;         /* [count][2^dim] on the next coarser grid; NULL on the coarsest */
     size_t *child_row;        /* [coarser count + 1] the same the other way round */
@@ -68,19 +69,20 @@ struct solver_closure {
     double *residual, *solution, *direction, *image, *z, *z_image, *back;
     double *partial; /* [pieces][lanes] */
     /* smoothing, in single precision (closure_smooth_dim.c) */
-    double weak;                        /* pairs of less weight are on the diagonal only */
-    size_t *strong_row;                 /* [count + 1] first of the others, of each particle */
-    uint32_t *strong;                   /* [strong pairs] the neighbour */
-    float *pair;                        /* [strong pairs][4] sqrt(w) (-1, d/2) */
-    float *inverse;                     /* [count][4][4] of the blocks on M's diagonal */
-    float *rest, *now, *last;           /* [count][smoother's width] */
-    int iterations;                     /* taken so far, in all solutions */
+    double weak;              /* pairs of less weight are on the diagonal only */
+    size_t *strong_row;       /* [count + 1] first of the others, of each particle */
+    uint32_t *strong;         /* [strong pairs] the neighbour */
+    float *pair;              /* [strong pairs][4] sqrt(w) (-1, d/2) */
+    float *inverse;           /* [count][4][4] of the blocks on M's diagonal */
+    float *rest, *now, *last; /* [count][smoother's width] */
+    int iterations;           /* taken so far, in all solutions */
 };
 
 struct solver_closure_loops {
     size_t lanes;
     void (*apply)(const struct solver_closure *of, const double *u, double *out, size_t begin, size_t end);
     void (*dot)(const double *x, const double *y, double *sum, size_t begin, size_t end);
+    double (*largest)(const double *x, size_t begin, size_t end); /* NaN where numbers fail */
     /* x += factor y, or x = factor x + y, a factor per component */
     void (*add)(const struct solver_closure *of, const double *factor, const double *y, double *x, size_t begin,
                 size_t end);

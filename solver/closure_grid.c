@@ -8,7 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BITS = 21, MARGIN = 8, SPAN = 2 * SOLVER_CLOSURE_REACH + 1, FEWEST = 4, SLAB = 4, POWERS = 12, LINE = SOLVER_CLOSURE_LINE };
+enum {
+    BITS = 21,
+    MARGIN = 8,
+    SPAN = 2 * SOLVER_CLOSURE_REACH + 1,
+    FEWEST = 4,
+    SLAB = 4,
+    POWERS = 12,
+    LINE = SOLVER_CLOSURE_LINE
+};
 /* Splines of the coarsest grid at most, in 1D, 2D and 3D. In 2D, 48 would take a tenth to a third more iterations on
  * perturbed particles; 300, where the shift of the factor begins to show, up to a third more on small clouds. */
 static const size_t coarsest[] = {12, 160, 160};
@@ -96,7 +104,7 @@ static bool make_splines(struct solver_closure_grid *grid, int dim, uint64_t *ke
  * where `upper`, only lines of places from the row's own on are there, and the others are the transpose's. Returns the
  * first spline of the line, and whether there is any. */
 static size_t line_of(const struct solver_closure_grid *grid, const double *dense, bool upper, size_t i, int y, int z,
-                      float value[LINE], bool *any)
+                      double value[LINE], bool *any)
 {
     const int32_t *at = grid->at + i * 3;
     size_t width = power(SPAN, grid->dim), centre = width / 2;
@@ -108,8 +116,8 @@ static size_t line_of(const struct solver_closure_grid *grid, const double *dens
         long line = z * SPAN + y;
         size_t offset = (size_t)((long)centre + line * SPAN + grid->at[j * 3] - at[0]);
         double entry = upper && line < 0 ? dense[j * width + width - 1 - offset] : dense[i * width + offset];
-        value[j - first] = (float)entry;
-        *any = *any || value[j - first] != 0.0f;
+        value[j - first] = entry;
+        *any = *any || entry != 0.0;
     }
     return first;
 }
@@ -124,12 +132,16 @@ static bool compress(struct solver_closure_grid *grid, const double *dense, bool
         for (size_t i = 0; i < grid->count; i++) {
             size_t at = pass == 0 ? 0 : grid->row[i];
             for (int n = 0; n < (2 * back + 1) * (2 * up + 1); n++) {
-                float value[LINE];
+                double value[LINE];
                 bool any;
-                size_t first = line_of(grid, dense, upper, i, n % (2 * up + 1) - up, n / (2 * up + 1) - back, value, &any);
+                size_t first =
+                    line_of(grid, dense, upper, i, n % (2 * up + 1) - up, n / (2 * up + 1) - back, value, &any);
                 if (any && pass == 1) {
                     grid->column[at] = (uint32_t)first;
-                    memcpy(grid->value + at * LINE, value, sizeof value);
+                    for (size_t k = 0; k < LINE; k++) {
+                        grid->exact[at * LINE + k] = value[k];
+                        grid->value[at * LINE + k] = (float)value[k];
+                    }
                 }
                 at += any;
             }
@@ -142,10 +154,11 @@ static bool compress(struct solver_closure_grid *grid, const double *dense, bool
         for (size_t i = 0; pass == 0 && i < grid->count; i++) {
             grid->row[i + 1] += grid->row[i];
         }
-        if (pass == 0 && (!solver_alloc((void **)&grid->column, grid->row[grid->count], sizeof *grid->column,
-                                        "spline matrix", error) ||
-                          !solver_alloc((void **)&grid->value, grid->row[grid->count] * LINE,
-                                        sizeof *grid->value, "spline matrix", error))) {
+        size_t lines = grid->row[grid->count];
+        if (pass == 0 &&
+            (!solver_alloc((void **)&grid->column, lines, sizeof *grid->column, "spline matrix", error) ||
+             !solver_alloc((void **)&grid->value, lines * LINE, sizeof *grid->value, "spline matrix", error) ||
+             !solver_alloc((void **)&grid->exact, lines * LINE, sizeof *grid->exact, "spline matrix", error))) {
             return false;
         }
     }
@@ -345,10 +358,10 @@ static void coarse_row(const struct solver_closure_grid *fine, const struct solv
         size_t child = fine->child[of] / parents;
         double share = share_of(fine->at + child * 3, dim, fine->child[of] % parents);
         for (size_t n = fine->row[child] * LINE; n < fine->row[child + 1] * LINE; n++) {
-            if (fine->value[n] != 0.0f) {
+            if (fine->exact[n] != 0.0) {
                 const int32_t *to = fine->at + (fine->column[n / LINE] + n % LINE) * 3;
                 int32_t place = ((to[2] - first[2]) * FINE + to[1] - first[1]) * FINE + to[0] - first[0];
-                window[place] += share * (double)fine->value[n];
+                window[place] += share * fine->exact[n];
             }
         }
     }
@@ -386,6 +399,8 @@ static bool coarsen(struct solver_closure_grid *fine, struct solver_closure_grid
     }
     bool ok = compress(coarse, dense, false, error);
     free(dense);
+    free(fine->exact);
+    fine->exact = NULL;
     return ok;
 }
 
@@ -432,7 +447,11 @@ bool solver_closure_grids(struct solver_closure *of, double radius, struct solve
     for (int level = 0; ok && level < of->levels - 1; level++) {
         bound(&of->grid[level], of->loops);
     }
-    return ok && solver_closure_factorise(&of->grid[of->levels - 1], error);
+    struct solver_closure_grid *last = &of->grid[of->levels - 1];
+    ok = ok && solver_closure_factorise(last, error);
+    free(last->exact);
+    last->exact = NULL;
+    return ok;
 }
 
 void solver_closure_grids_free(struct solver_closure *of)
@@ -444,6 +463,7 @@ void solver_closure_grids_free(struct solver_closure *of)
         free(grid->row);
         free(grid->column);
         free(grid->value);
+        free(grid->exact);
         free(grid->diagonal);
         free(grid->parent);
         free(grid->child_row);

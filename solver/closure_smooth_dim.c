@@ -3,8 +3,10 @@
  * A narrow vector is [count][COLUMNS][4] floats: for each component of C four numbers, alpha, then beta by components,
  * padded with zeros; in 3D a fourth column, of zeros, fills the widest vectors. A pair has sqrt(w) (-1, d/2): with
  * s = sum of that times u_b, what b gives to (M u)_a is that times s, but for the sign of the first. What a itself
- * gives is its diagonal block. Pairs that hardly weigh are in those blocks only: as (x + y)^2 <= 2 x^2 + 2 y^2 on a
- * pair, the matrix that smoothing sees is at least M / 2 then, and steps that are stable for it are for M. */
+ * gives is D_a u_a, D_a the block on the diagonal; only D^-1 is kept, as D^-1 (r - M u) is D^-1 (r - what others give)
+ * less u_a, and where D has no inverse, what stands for it is that of a larger block. Pairs that hardly weigh are in
+ * those blocks only, twice: as (x + y)^2 <= 2 x^2 + 2 y^2 on a pair, the matrix that smoothing sees is at least M, and
+ * steps that are stable for it are for M. */
 #include "solver/closure.h"
 
 #include "solver/dim.h"
@@ -138,7 +140,8 @@ static void prepare(struct solver_closure *of, size_t begin, size_t end)
             for (int i = 0; i < DIM; i++) {
                 g[i + 1] = half[i];
             }
-            if (of->weight[ab] >= of->weak) {
+            bool weak = of->weight[ab] < of->weak;
+            if (!weak) {
                 float *pair = of->pair + kept_pair * FOUR;
                 double root = sqrt(of->weight[ab]);
                 of->strong[kept_pair++] = graph->neighbour[ab];
@@ -149,7 +152,7 @@ static void prepare(struct solver_closure *of, size_t begin, size_t end)
             }
             for (int i = 0; i < WIDTH; i++) {
                 for (int j = 0; j < WIDTH; j++) {
-                    block[i][j] += of->weight[ab] * g[i] * g[j];
+                    block[i][j] += (weak ? 2.0 : 1.0) * of->weight[ab] * g[i] * g[j];
                 }
             }
         }
@@ -196,10 +199,12 @@ static void start(const struct solver_closure *of, float factor, const double *r
     unsigned kept = begin_flush();
     for (size_t a = begin; a < end; a++) {
         float *rest = of->rest + a * NARROW;
-        for (size_t k = 0; k < DIM; k++) {
-            for (size_t i = 0; i < WIDTH; i++) {
-                size_t at = a * BLOCK + i * LANES + k;
-                rest[k * FOUR + i] = (float)(image == NULL ? r[at] : r[at] - image[at]);
+        for (size_t i = 0; i < WIDTH; i++) {
+            size_t at = a * BLOCK + i * LANES;
+            float row[LANES];
+            store_floats(row, image == NULL ? load(r + at) : load(r + at) - load(image + at));
+            for (size_t k = 0; k < DIM; k++) {
+                rest[k * FOUR + i] = row[k];
             }
         }
         struct narrow x = times_block(of->inverse + a * FOUR * FOUR, load_narrow(rest));
