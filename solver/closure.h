@@ -32,8 +32,7 @@ struct solver_closure_grid {
     int32_t *at;              /* [count][3] place of each along the axes */
     size_t *row;              /* [count + 1] the matrix: first line along axis 0 of each spline's */
     uint32_t *column;         /* [lines] the first spline of each line, behind which the others follow */
-    float *value;             /* [lines][SOLVER_CLOSURE_LINE] zeros where a line is shorter */
-    double *exact;            /* the same; until the next grid is made of it, or the factor */
+    double *value;            /* [lines][SOLVER_CLOSURE_LINE] zeros where a line is shorter */
     double *diagonal;         /* [count] its inverse */
     uint32_t *parent;         /* [count][2^dim] on the next coarser grid; NULL on the coarsest */
     size_t *child_row;        /* [coarser count + 1] the same the other way round */

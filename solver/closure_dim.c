@@ -395,9 +395,9 @@ static void grid_smooth(const struct solver_closure_grid *grid, double keep, dou
         vec part[4] = {{0}}; /* sums that do not wait for each other */
         for (size_t at = grid->row[i]; at < grid->row[i + 1]; at++) {
             const double *from = d + (size_t)grid->column[at] * LANES;
-            const float *value = grid->value + at * SOLVER_CLOSURE_LINE;
+            const double *value = grid->value + at * SOLVER_CLOSURE_LINE;
             for (size_t n = 0; n < SPAN; n++) {
-                part[n % 4] += (double)value[n] * load(from + n * LANES);
+                part[n % 4] += value[n] * load(from + n * LANES);
             }
         }
         vec sum = (part[0] + part[1]) + (part[2] + part[3]);

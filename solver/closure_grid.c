@@ -138,10 +138,7 @@ static bool compress(struct solver_closure_grid *grid, const double *dense, bool
                     line_of(grid, dense, upper, i, n % (2 * up + 1) - up, n / (2 * up + 1) - back, value, &any);
                 if (any && pass == 1) {
                     grid->column[at] = (uint32_t)first;
-                    for (size_t k = 0; k < LINE; k++) {
-                        grid->exact[at * LINE + k] = value[k];
-                        grid->value[at * LINE + k] = (float)value[k];
-                    }
+                    memcpy(grid->value + at * LINE, value, sizeof value);
                 }
                 at += any;
             }
@@ -157,8 +154,7 @@ static bool compress(struct solver_closure_grid *grid, const double *dense, bool
         size_t lines = grid->row[grid->count];
         if (pass == 0 &&
             (!solver_alloc((void **)&grid->column, lines, sizeof *grid->column, "spline matrix", error) ||
-             !solver_alloc((void **)&grid->value, lines * LINE, sizeof *grid->value, "spline matrix", error) ||
-             !solver_alloc((void **)&grid->exact, lines * LINE, sizeof *grid->exact, "spline matrix", error))) {
+             !solver_alloc((void **)&grid->value, lines * LINE, sizeof *grid->value, "spline matrix", error))) {
             return false;
         }
     }
@@ -358,10 +354,10 @@ static void coarse_row(const struct solver_closure_grid *fine, const struct solv
         size_t child = fine->child[of] / parents;
         double share = share_of(fine->at + child * 3, dim, fine->child[of] % parents);
         for (size_t n = fine->row[child] * LINE; n < fine->row[child + 1] * LINE; n++) {
-            if (fine->exact[n] != 0.0) {
+            if (fine->value[n] != 0.0) {
                 const int32_t *to = fine->at + (fine->column[n / LINE] + n % LINE) * 3;
                 int32_t place = ((to[2] - first[2]) * FINE + to[1] - first[1]) * FINE + to[0] - first[0];
-                window[place] += share * fine->exact[n];
+                window[place] += share * fine->value[n];
             }
         }
     }
@@ -399,8 +395,6 @@ static bool coarsen(struct solver_closure_grid *fine, struct solver_closure_grid
     }
     bool ok = compress(coarse, dense, false, error);
     free(dense);
-    free(fine->exact);
-    fine->exact = NULL;
     return ok;
 }
 
@@ -447,11 +441,7 @@ bool solver_closure_grids(struct solver_closure *of, double radius, struct solve
     for (int level = 0; ok && level < of->levels - 1; level++) {
         bound(&of->grid[level], of->loops);
     }
-    struct solver_closure_grid *last = &of->grid[of->levels - 1];
-    ok = ok && solver_closure_factorise(last, error);
-    free(last->exact);
-    last->exact = NULL;
-    return ok;
+    return ok && solver_closure_factorise(&of->grid[of->levels - 1], error);
 }
 
 void solver_closure_grids_free(struct solver_closure *of)
@@ -463,7 +453,6 @@ void solver_closure_grids_free(struct solver_closure *of)
         free(grid->row);
         free(grid->column);
         free(grid->value);
-        free(grid->exact);
         free(grid->diagonal);
         free(grid->parent);
         free(grid->child_row);
