@@ -19,7 +19,7 @@
 #include "solver/graph.h"
 #include "solver/path.h"
 
-enum { SOLVER_CLOSURE_LEVELS = 24, SOLVER_CLOSURE_REACH = 3 };
+enum { SOLVER_CLOSURE_LEVELS = 24, SOLVER_CLOSURE_REACH = 3, SOLVER_CLOSURE_LINE = 8 };
 
 /* Margin of the cells of splines, relative to the particles' spacing: round-off decides nothing. */
 static const double solver_closure_slack = 1e-6;
@@ -30,16 +30,16 @@ struct solver_closure_grid {
     size_t count;             /* splines that are not zero on every particle */
     uint64_t *key;            /* [count] place of each as one number, ascending */
     int32_t *at;              /* [count][3] place of each along the axes */
-    size_t *row;              /* [count + 1] the matrix, in compressed sparse rows */
-    uint32_t *column;         /* [row[count]] */
-    double *value;            /* [row[count]] */
+    size_t *row;              /* [count + 1] the matrix: first line along axis 0 of each spline's */
+    uint32_t *column;         /* [lines] the first spline of each line, behind which the others follow */
+    double *value;            /* [lines][SOLVER_CLOSURE_LINE] zeros where a line is shorter */
     double *diagonal;         /* [count] its inverse */
     uint32_t *parent;         /* [count][2^dim] on the next coarser grid; NULL on the coarsest */
     size_t *child_row;        /* [coarser count + 1] the same the other way round */
     uint32_t *child;          /* [child_row[coarser count]] */
     double *factor;           /* [count][count] on the coarsest: its Cholesky factor */
     double largest;           /* bound of the eigenvalues of matrix / diagonal */
-    double *x, *r, *d, *next; /* [count][lanes] */
+    double *x, *r, *d, *next; /* [count][lanes], zeros behind d and next for lines that end there */
 };
 
 struct solver_closure {
@@ -68,19 +68,20 @@ struct solver_closure {
     double *residual, *solution, *direction, *image, *z, *z_image, *back;
     double *partial; /* [pieces][lanes] */
     /* smoothing, in single precision (closure_smooth_dim.c) */
-    double weak;                        /* pairs of less weight are on the diagonal only */
-    size_t *strong_row;                 /* [count + 1] first of the others, of each particle */
-    uint32_t *strong;                   /* [strong pairs] the neighbour */
-    float *pair;                        /* [strong pairs][4] sqrt(w) (-1, d/2) */
-    float *own, *inverse;               /* [count][4][4] the blocks on M's diagonal, and their inverses */
-    float *change, *left, *step, *next; /* [count][smoother's width] */
-    int iterations;                     /* taken so far, in all solutions */
+    double weak;              /* pairs of less weight are on the diagonal only */
+    size_t *strong_row;       /* [count + 1] first of the others, of each particle */
+    uint32_t *strong;         /* [strong pairs] the neighbour */
+    float *pair;              /* [strong pairs][4] sqrt(w) (-1, d/2) */
+    float *inverse;           /* [count][4][4] of the blocks on M's diagonal */
+    float *rest, *now, *last; /* [count][smoother's width] */
+    int iterations;           /* taken so far, in all solutions */
 };
 
 struct solver_closure_loops {
     size_t lanes;
     void (*apply)(const struct solver_closure *of, const double *u, double *out, size_t begin, size_t end);
     void (*dot)(const double *x, const double *y, double *sum, size_t begin, size_t end);
+    double (*largest)(const double *x, size_t begin, size_t end); /* NaN where numbers fail */
     /* x += factor y, or x = factor x + y, a factor per component */
     void (*add)(const struct solver_closure *of, const double *factor, const double *y, double *x, size_t begin,
                 size_t end);
@@ -107,17 +108,17 @@ struct solver_closure_loops {
 };
 SOLVER_DECLARE_LOOPS(struct solver_closure_loops, solver_closure);
 
-/* Smoothing: the change made so far, the step that is about to be made, and the residual that the change has left. */
+/* Smoothing: `now` is the change made so far, `last` what it was a step before, and M now should be `rest`. */
 struct solver_closure_smoother {
     size_t width;
     void (*prepare)(struct solver_closure *of, size_t begin, size_t end);
-    /* left = r - image, change = 0, step = factor * M's diagonal blocks^-1 left */
+    /* rest = r - image, last = 0, now = factor * M's diagonal blocks^-1 rest; without an image it is 0 */
     void (*start)(const struct solver_closure *of, float factor, const double *r, const double *image, size_t begin,
                   size_t end);
-    /* change += step, left -= M step, next = keep step + factor * blocks^-1 left */
+    /* last = now + keep (now - last) + factor * blocks^-1 (rest - M now) */
     void (*smooth)(const struct solver_closure *of, float keep, float factor, size_t begin, size_t end);
-    /* z += change + step */
-    void (*finish)(const struct solver_closure *of, double *z, size_t begin, size_t end);
+    /* z = now, or z += now */
+    void (*finish)(const struct solver_closure *of, bool add, double *z, size_t begin, size_t end);
 };
 SOLVER_DECLARE_LOOPS(struct solver_closure_smoother, solver_closure_smoother);
 

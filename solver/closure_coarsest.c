@@ -86,8 +86,11 @@ bool solver_closure_factorise(struct solver_closure_grid *grid, struct solver_er
     }
     double *L = grid->factor;
     for (size_t i = 0; i < n; i++) {
-        for (size_t ij = grid->row[i]; ij < grid->row[i + 1]; ij++) {
-            L[i * n + grid->column[ij]] = grid->value[ij] * sqrt(grid->diagonal[i] * grid->diagonal[grid->column[ij]]);
+        for (size_t at = grid->row[i] * SOLVER_CLOSURE_LINE; at < grid->row[i + 1] * SOLVER_CLOSURE_LINE; at++) {
+            if (grid->value[at] != 0.0) {
+                size_t j = grid->column[at / SOLVER_CLOSURE_LINE] + at % SOLVER_CLOSURE_LINE;
+                L[i * n + j] = grid->value[at] * sqrt(grid->diagonal[i] * grid->diagonal[j]);
+            }
         }
         L[i * n + i] = 1.0 + shift;
     }

@@ -3,6 +3,7 @@
 
 #include "solver/dim.h"
 
+#include <math.h>
 #include <string.h>
 
 enum {
@@ -79,6 +80,19 @@ static void dot_of(const double *x, const double *y, double *sum, size_t begin, 
         total += load(x + i * LANES) * load(y + i * LANES);
     }
     store(sum, total);
+}
+
+static double largest_of(const double *x, size_t begin, size_t end)
+{
+    double most[4] = {0.0}, failed[4] = {0.0}; /* in turns: none waits for the one before */
+    size_t room = (end - begin) * BLOCK;
+    x += begin * BLOCK;
+    for (size_t i = 0; i < room; i++) {
+        double size = fabs(x[i]);
+        most[i % 4] = size > most[i % 4] ? size : most[i % 4];
+        failed[i % 4] += 0.0 * x[i];
+    }
+    return fmax(fmax(most[0], most[1]), fmax(most[2], most[3])) + (failed[0] + failed[1] + failed[2] + failed[3]);
 }
 
 static void add(const struct solver_closure *of, const double *factor, const double *y, double *x, size_t begin,
@@ -379,14 +393,12 @@ static void grid_smooth(const struct solver_closure_grid *grid, double keep, dou
 {
     for (size_t i = begin; i < end; i++) {
         vec part[4] = {{0}}; /* sums that do not wait for each other */
-        size_t ij = grid->row[i];
-        for (; ij + 4 <= grid->row[i + 1]; ij += 4) {
-            for (size_t n = 0; n < 4; n++) {
-                part[n] += grid->value[ij + n] * load(d + (size_t)grid->column[ij + n] * LANES);
+        for (size_t at = grid->row[i]; at < grid->row[i + 1]; at++) {
+            const double *from = d + (size_t)grid->column[at] * LANES;
+            const double *value = grid->value + at * SOLVER_CLOSURE_LINE;
+            for (size_t n = 0; n < SPAN; n++) {
+                part[n % 4] += value[n] * load(from + n * LANES);
             }
-        }
-        for (; ij < grid->row[i + 1]; ij++) {
-            part[0] += grid->value[ij] * load(d + (size_t)grid->column[ij] * LANES);
         }
         vec sum = (part[0] + part[1]) + (part[2] + part[3]);
         store(x + i * LANES, load(x + i * LANES) + load(d + i * LANES));
@@ -434,6 +446,7 @@ const struct solver_closure_loops DIM_NAME(solver_closure) = {
     .lanes = LANES,
     .apply = apply,
     .dot = dot_of,
+    .largest = largest_of,
     .add = add,
     .scale_add = scale_add,
     .change = change,

@@ -8,7 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BITS = 21, MARGIN = 8, SPAN = 2 * SOLVER_CLOSURE_REACH + 1, FEWEST = 4, SLAB = 4, POWERS = 12 };
+enum {
+    BITS = 21,
+    MARGIN = 8,
+    SPAN = 2 * SOLVER_CLOSURE_REACH + 1,
+    FEWEST = 4,
+    SLAB = 4,
+    POWERS = 12,
+    LINE = SOLVER_CLOSURE_LINE
+};
 /* Splines of the coarsest grid at most, in 1D, 2D and 3D. In 2D, 48 would take a tenth to a third more iterations on
  * perturbed particles; 300, where the shift of the factor begins to show, up to a third more on small clouds. */
 static const size_t coarsest[] = {12, 160, 160};
@@ -81,8 +89,8 @@ static bool make_splines(struct solver_closure_grid *grid, int dim, uint64_t *ke
         !solver_alloc((void **)&grid->diagonal, grid->count, sizeof(double), "spline matrix", error) ||
         !solver_alloc((void **)&grid->x, grid->count * lanes, sizeof(double), "spline vectors", error) ||
         !solver_alloc((void **)&grid->r, grid->count * lanes, sizeof(double), "spline vectors", error) ||
-        !solver_alloc((void **)&grid->d, grid->count * lanes, sizeof(double), "spline vectors", error) ||
-        !solver_alloc((void **)&grid->next, grid->count * lanes, sizeof(double), "spline vectors", error)) {
+        !solver_alloc((void **)&grid->d, (grid->count + LINE) * lanes, sizeof(double), "spline vectors", error) ||
+        !solver_alloc((void **)&grid->next, (grid->count + LINE) * lanes, sizeof(double), "spline vectors", error)) {
         return false;
     }
     memcpy(grid->key, key, grid->count * sizeof *key);
@@ -92,50 +100,47 @@ static bool make_splines(struct solver_closure_grid *grid, int dim, uint64_t *ke
     return true;
 }
 
-/* Calls for each spline near spline i, i itself included: its place among the SPAN^dim around, and which it is. Returns
- * how many there are. */
-static size_t near_splines(const struct solver_closure_grid *grid, size_t i, uint32_t column[SPAN * SPAN * SPAN],
-                           uint16_t offset[SPAN * SPAN * SPAN])
+/* The entries of one line of row i, y and z places beyond its own, from rows that are dense over the places around;
+ * where `upper`, only lines of places from the row's own on are there, and the others are the transpose's. Returns the
+ * first spline of the line, and whether there is any. */
+static size_t line_of(const struct solver_closure_grid *grid, const double *dense, bool upper, size_t i, int y, int z,
+                      double value[LINE], bool *any)
 {
     const int32_t *at = grid->at + i * 3;
-    int reach[3] = {SOLVER_CLOSURE_REACH, grid->dim > 1 ? SOLVER_CLOSURE_REACH : 0,
-                    grid->dim > 2 ? SOLVER_CLOSURE_REACH : 0};
-    size_t count = 0;
-    for (int z = -reach[2]; z <= reach[2]; z++) {
-        for (int y = -reach[1]; y <= reach[1]; y++) {
-            uint64_t last = key_of(at[0] + reach[0], at[1] + y, at[2] + z);
-            size_t j = first_of(grid->key, grid->count, key_of(at[0] - reach[0], at[1] + y, at[2] + z));
-            for (; j < grid->count && grid->key[j] <= last; j++) {
-                int line = (z + reach[2]) * (2 * reach[1] + 1) + y + reach[1];
-                column[count] = (uint32_t)j;
-                offset[count++] = (uint16_t)(line * SPAN + grid->at[j * 3] - at[0] + reach[0]);
-            }
-        }
+    size_t width = power(SPAN, grid->dim), centre = width / 2;
+    uint64_t last = key_of(at[0] + SOLVER_CLOSURE_REACH, at[1] + y, at[2] + z);
+    size_t first = first_of(grid->key, grid->count, key_of(at[0] - SOLVER_CLOSURE_REACH, at[1] + y, at[2] + z));
+    *any = false;
+    memset(value, 0, LINE * sizeof *value);
+    for (size_t j = first; j < grid->count && grid->key[j] <= last; j++) {
+        long line = z * SPAN + y;
+        size_t offset = (size_t)((long)centre + line * SPAN + grid->at[j * 3] - at[0]);
+        double entry = upper && line < 0 ? dense[j * width + width - 1 - offset] : dense[i * width + offset];
+        value[j - first] = entry;
+        *any = *any || entry != 0.0;
     }
-    return count;
+    return first;
 }
 
-/* The matrix from rows that are dense over the places around; where `upper`, only lines of places from the row's own on
- * are there, and the others are the transpose's. */
+/* The matrix from such rows. */
 static bool compress(struct solver_closure_grid *grid, const double *dense, bool upper, struct solver_error *error)
 {
+    int up = grid->dim > 1 ? SOLVER_CLOSURE_REACH : 0, back = grid->dim > 2 ? SOLVER_CLOSURE_REACH : 0;
     size_t width = power(SPAN, grid->dim);
-    size_t centre = width / 2 - SOLVER_CLOSURE_REACH; /* where the row's own line begins */
     for (int pass = 0; pass < 2; pass++) {
 #pragma omp parallel for schedule(static)
         for (size_t i = 0; i < grid->count; i++) {
-            uint32_t column[SPAN * SPAN * SPAN];
-            uint16_t offset[SPAN * SPAN * SPAN];
-            size_t near = near_splines(grid, i, column, offset);
             size_t at = pass == 0 ? 0 : grid->row[i];
-            for (size_t n = 0; n < near; n++) {
-                double value = upper && offset[n] < centre ? dense[column[n] * width + width - 1 - offset[n]]
-                                                           : dense[i * width + offset[n]];
-                if (value != 0.0 && pass == 1) {
-                    grid->column[at] = column[n];
-                    grid->value[at] = value;
+            for (int n = 0; n < (2 * back + 1) * (2 * up + 1); n++) {
+                double value[LINE];
+                bool any;
+                size_t first =
+                    line_of(grid, dense, upper, i, n % (2 * up + 1) - up, n / (2 * up + 1) - back, value, &any);
+                if (any && pass == 1) {
+                    grid->column[at] = (uint32_t)first;
+                    memcpy(grid->value + at * LINE, value, sizeof value);
                 }
-                at += value != 0.0;
+                at += any;
             }
             if (pass == 0) {
                 grid->row[i + 1] = at;
@@ -146,10 +151,10 @@ static bool compress(struct solver_closure_grid *grid, const double *dense, bool
         for (size_t i = 0; pass == 0 && i < grid->count; i++) {
             grid->row[i + 1] += grid->row[i];
         }
-        if (pass == 0 && (!solver_alloc((void **)&grid->column, grid->row[grid->count], sizeof *grid->column,
-                                        "spline matrix", error) ||
-                          !solver_alloc((void **)&grid->value, grid->row[grid->count], sizeof *grid->value,
-                                        "spline matrix", error))) {
+        size_t lines = grid->row[grid->count];
+        if (pass == 0 &&
+            (!solver_alloc((void **)&grid->column, lines, sizeof *grid->column, "spline matrix", error) ||
+             !solver_alloc((void **)&grid->value, lines * LINE, sizeof *grid->value, "spline matrix", error))) {
             return false;
         }
     }
@@ -345,13 +350,15 @@ static void coarse_row(const struct solver_closure_grid *fine, const struct solv
     for (int axis = 0; axis < dim; axis++) {
         first[axis] = 2 * at[axis] - 2 - SOLVER_CLOSURE_REACH;
     }
-    for (size_t n = fine->child_row[i]; n < fine->child_row[i + 1]; n++) {
-        size_t child = fine->child[n] / parents;
-        double share = share_of(fine->at + child * 3, dim, fine->child[n] % parents);
-        for (size_t ij = fine->row[child]; ij < fine->row[child + 1]; ij++) {
-            const int32_t *to = fine->at + (size_t)fine->column[ij] * 3;
-            int32_t place = ((to[2] - first[2]) * FINE + to[1] - first[1]) * FINE + to[0] - first[0];
-            window[place] += share * fine->value[ij];
+    for (size_t of = fine->child_row[i]; of < fine->child_row[i + 1]; of++) {
+        size_t child = fine->child[of] / parents;
+        double share = share_of(fine->at + child * 3, dim, fine->child[of] % parents);
+        for (size_t n = fine->row[child] * LINE; n < fine->row[child + 1] * LINE; n++) {
+            if (fine->value[n] != 0.0) {
+                const int32_t *to = fine->at + (fine->column[n / LINE] + n % LINE) * 3;
+                int32_t place = ((to[2] - first[2]) * FINE + to[1] - first[1]) * FINE + to[0] - first[0];
+                window[place] += share * fine->value[n];
+            }
         }
     }
     int sides[3] = {FINE, dim > 1 ? FINE : 1, dim > 2 ? FINE : 1};

@@ -3,8 +3,10 @@
  * A narrow vector is [count][COLUMNS][4] floats: for each component of C four numbers, alpha, then beta by components,
  * padded with zeros; in 3D a fourth column, of zeros, fills the widest vectors. A pair has sqrt(w) (-1, d/2): with
  * s = sum of that times u_b, what b gives to (M u)_a is that times s, but for the sign of the first. What a itself
- * gives is its diagonal block. Pairs that hardly weigh are in those blocks only: as (x + y)^2 <= 2 x^2 + 2 y^2 on a
- * pair, the matrix that smoothing sees is at least M / 2 then, and steps that are stable for it are for M. */
+ * gives is D_a u_a, D_a the block on the diagonal; only D^-1 is kept, as D^-1 (r - M u) is D^-1 (r - what others give)
+ * less u_a, and where D has no inverse, what stands for it is that of a larger block. Pairs that hardly weigh are in
+ * those blocks only, twice: as (x + y)^2 <= 2 x^2 + 2 y^2 on a pair, the matrix that smoothing sees is at least M, and
+ * steps that are stable for it are for M. */
 #include "solver/closure.h"
 
 #include "solver/dim.h"
@@ -94,23 +96,25 @@ static inline struct narrow times_block(const float *block, struct narrow v)
     return out;
 }
 
-/* (M u)_a, weak pairs' own parts only */
-static inline struct narrow image_of(const struct solver_closure *of, const float *u, size_t a)
+/* What particle a has of M u from its neighbours. Two sums do not wait for each other. */
+static inline struct narrow from_others(const struct solver_closure *of, const float *u, size_t a)
 {
     static const float flip[FOUR] __attribute__((aligned(16))) = {-1.0f, 1.0f, 1.0f, 1.0f};
-    struct narrow sum = {{{0}}};
-    for (size_t ab = of->strong_row[a]; ab < of->strong_row[a + 1]; ab++) {
-        const float *u_b = u + (size_t)of->strong[ab] * NARROW;
-        part c = in_each(of->pair + ab * FOUR);
-        for (int p = 0; p < PARTS; p++) {
-            sum.of[p] += c * column_sum(c * *(const part *)(u_b + p * PART));
+    struct narrow sum[2] = {{{{0}}}};
+    size_t end = of->strong_row[a + 1];
+    for (size_t ab = of->strong_row[a]; ab < end; ab += 2) {
+        for (size_t n = 0; n < 2 && ab + n < end; n++) {
+            const float *u_b = u + (size_t)of->strong[ab + n] * NARROW;
+            part c = in_each(of->pair + (ab + n) * FOUR);
+            for (int p = 0; p < PARTS; p++) {
+                sum[n].of[p] += c * column_sum(c * *(const part *)(u_b + p * PART));
+            }
         }
     }
-    struct narrow own = times_block(of->own + a * FOUR * FOUR, load_narrow(u + a * NARROW));
     for (int p = 0; p < PARTS; p++) {
-        own.of[p] += in_each(flip) * sum.of[p];
+        sum[0].of[p] = in_each(flip) * (sum[0].of[p] + sum[1].of[p]);
     }
-    return own;
+    return sum[0];
 }
 
 /* --- what stays --- */
@@ -136,7 +140,8 @@ static void prepare(struct solver_closure *of, size_t begin, size_t end)
             for (int i = 0; i < DIM; i++) {
                 g[i + 1] = half[i];
             }
-            if (of->weight[ab] >= of->weak) {
+            bool weak = of->weight[ab] < of->weak;
+            if (!weak) {
                 float *pair = of->pair + kept_pair * FOUR;
                 double root = sqrt(of->weight[ab]);
                 of->strong[kept_pair++] = graph->neighbour[ab];
@@ -147,11 +152,10 @@ static void prepare(struct solver_closure *of, size_t begin, size_t end)
             }
             for (int i = 0; i < WIDTH; i++) {
                 for (int j = 0; j < WIDTH; j++) {
-                    block[i][j] += of->weight[ab] * g[i] * g[j];
+                    block[i][j] += (weak ? 2.0 : 1.0) * of->weight[ab] * g[i] * g[j];
                 }
             }
         }
-        to_narrow(block, of->own + a * FOUR * FOUR);
         /* a block that is singular to round-off: what its neighbours cannot meet is refused by the residual */
         double kept[4][4];
         memcpy(kept, block, sizeof block);
@@ -194,19 +198,21 @@ static void start(const struct solver_closure *of, float factor, const double *r
 {
     unsigned kept = begin_flush();
     for (size_t a = begin; a < end; a++) {
-        float *left = of->left + a * NARROW;
-        for (size_t k = 0; k < DIM; k++) {
-            for (size_t i = 0; i < WIDTH; i++) {
-                size_t at = a * BLOCK + i * LANES + k;
-                left[k * FOUR + i] = (float)(r[at] - image[at]);
+        float *rest = of->rest + a * NARROW;
+        for (size_t i = 0; i < WIDTH; i++) {
+            size_t at = a * BLOCK + i * LANES;
+            float row[LANES];
+            store_floats(row, image == NULL ? load(r + at) : load(r + at) - load(image + at));
+            for (size_t k = 0; k < DIM; k++) {
+                rest[k * FOUR + i] = row[k];
             }
         }
-        struct narrow z = times_block(of->inverse + a * FOUR * FOUR, load_narrow(left));
+        struct narrow x = times_block(of->inverse + a * FOUR * FOUR, load_narrow(rest));
         for (int p = 0; p < PARTS; p++) {
-            z.of[p] *= factor;
+            x.of[p] *= factor;
         }
-        store_narrow(of->step + a * NARROW, z);
-        store_narrow(of->change + a * NARROW, (struct narrow){{{0}}});
+        store_narrow(of->now + a * NARROW, x);
+        store_narrow(of->last + a * NARROW, (struct narrow){{{0}}});
     }
     end_flush(kept);
 }
@@ -215,33 +221,31 @@ static void smooth(const struct solver_closure *of, float keep, float factor, si
 {
     unsigned kept = begin_flush();
     for (size_t a = begin; a < end; a++) {
-        struct narrow image = image_of(of, of->step, a);
-        struct narrow x = load_narrow(of->change + a * NARROW);
-        struct narrow r = load_narrow(of->left + a * NARROW);
-        struct narrow d = load_narrow(of->step + a * NARROW);
+        struct narrow rest = load_narrow(of->rest + a * NARROW);
+        struct narrow others = from_others(of, of->now, a);
+        struct narrow x = load_narrow(of->now + a * NARROW), last = load_narrow(of->last + a * NARROW);
         for (int p = 0; p < PARTS; p++) {
-            x.of[p] += d.of[p];
-            r.of[p] -= image.of[p];
+            rest.of[p] -= others.of[p];
         }
-        struct narrow z = times_block(of->inverse + a * FOUR * FOUR, r);
+        struct narrow own = times_block(of->inverse + a * FOUR * FOUR, rest);
         for (int p = 0; p < PARTS; p++) {
-            z.of[p] = keep * d.of[p] + factor * z.of[p];
+            last.of[p] = x.of[p] + keep * (x.of[p] - last.of[p]) + factor * (own.of[p] - x.of[p]);
         }
-        store_narrow(of->change + a * NARROW, x);
-        store_narrow(of->left + a * NARROW, r);
-        store_narrow(of->next + a * NARROW, z);
+        store_narrow(of->last + a * NARROW, last);
     }
     end_flush(kept);
 }
 
-static void finish(const struct solver_closure *of, double *z, size_t begin, size_t end)
+static void finish(const struct solver_closure *of, bool add, double *z, size_t begin, size_t end)
 {
     for (size_t a = begin; a < end; a++) {
-        const float *x = of->change + a * NARROW, *d = of->step + a * NARROW;
+        const float *x = of->now + a * NARROW;
         for (size_t i = 0; i < WIDTH; i++) {
+            vec sum = add ? load(z + a * BLOCK + i * LANES) : splat(0.0);
             for (size_t k = 0; k < DIM; k++) {
-                z[a * BLOCK + i * LANES + k] += (double)(x[k * FOUR + i] + d[k * FOUR + i]);
+                sum[k] += (double)x[k * FOUR + i];
             }
+            store(z + a * BLOCK + i * LANES, sum);
         }
     }
 }

@@ -178,7 +178,7 @@ static bool project(struct solver_closure *work, struct solver_stencil *stencil,
     double worst = residuals(work, stencil, area);
     bool tried = project_directly(work, stencil, area, cheap, &worst);
     if (!(worst < acceptable)) {
-        ok = guess(work, stencil, radius, error) && solver_closure_ready(work, radius, error);
+        ok = (!tried || guess(work, stencil, radius, error)) && solver_closure_ready(work, radius, error);
         worst = residuals(work, stencil, area);
         if (ok) {
             project_by_rounds(work, stencil, area, &worst);
