@@ -13,8 +13,13 @@ enum { BLOCK = 16, PIECE = 32, DEEP = 6, GROUP = 2 };
  * the sixth power of the length. On longer ones, and on lattices that are hardly moved, those of less energy are few,
  * and conjugate residuals with the factor find them; iterations over spline spaces do not get there. */
 static const double shift = 3e-15;
-/* Numbers in U: 10 GB, beyond which many a machine has none. */
-static const size_t most_numbers = (size_t)1250 << 20;
+/* Of U: 10 GB, and no more than half of the machine's memory, which the system may grant without having it. */
+static size_t most_bytes(void)
+{
+    static const size_t most = (size_t)10 << 30;
+    size_t half = solver_memory_bytes() / 2;
+    return half < most ? half : most;
+}
 
 /* --- elimination --- */
 
@@ -174,7 +179,8 @@ bool solver_closure_factor_make(struct solver_closure *of, double most, bool *ma
     if (!solver_closure_tree(of, error)) {
         return false;
     }
-    *made = of->factor.operations <= most * (double)of->cloud->count && of->factor.size <= most_numbers;
+    *made =
+        of->factor.operations <= most * (double)of->cloud->count && of->factor.size <= most_bytes() / sizeof(double);
     return !*made || make(of, error);
 }
 

@@ -26,6 +26,13 @@ size_t solver_cache_bytes(int level)
     return bytes > 0 ? (size_t)bytes : 0;
 }
 
+size_t solver_memory_bytes(void)
+{
+    long pages = sysconf(_SC_PHYS_PAGES);
+    long page = sysconf(_SC_PAGE_SIZE);
+    return pages > 0 && page > 0 ? (size_t)pages * (size_t)page : SIZE_MAX;
+}
+
 size_t solver_alloc_bytes(size_t count, size_t size)
 {
     if (count > (SIZE_MAX - 2 * (size_t)LARGE_PAGE) / size) {

@@ -16,5 +16,7 @@ bool solver_alloc_untouched(void **out, size_t count, size_t size, const char *w
 size_t solver_alloc_bytes(size_t count, size_t size);
 /* Bytes of the cache of level 2 or 3; 0 where the system does not tell. */
 size_t solver_cache_bytes(int level);
+/* Bytes of the machine's memory; SIZE_MAX where the system does not tell. */
+size_t solver_memory_bytes(void);
 
 #endif

@@ -69,7 +69,7 @@ static void project_by_rounds(struct solver_closure *work, struct solver_stencil
                               double *worst)
 {
     double before = INFINITY;
-    for (int round = 0; round<ROUNDS && * worst> round_off && *worst < 0.5 * before; round++) {
+    for (int round = 0; *worst > round_off && round < ROUNDS && *worst < 0.5 * before; round++) {
         (void)solver_closure_solve(work, fmax(0.5 * round_off, per_round * *worst), ITERATIONS);
         change(work, stencil);
         before = *worst;
