@@ -52,6 +52,8 @@ cli_refuses(gate-on-unknown-field "\"P\" needs the scene's key scheme" verify sw
 cli_refuses(no-oracle-no-gates "has no gates" verify rotating-plate --set gates={})
 cli_refuses(beside-nothing "\"beside\" needs the scene's key beside" verify rotating-plate --set beside={})
 cli_refuses(beside-without-probes "probes are what is compared" verify rotating-plate --set probes={})
+cli_refuses(told-alone "needs L (length) [m]: give it under parameters, as the body starts from it" verify
+            ${CMAKE_SOURCE_DIR}/tests/scenes/told-alone.lua)
 cli_refuses(gate-without-oracle "\"p_l1\" needs the scene's key oracle" verify ${plate_without_oracle})
 cli_refuses(foreign-record "CMakeCache.txt" render CMakeCache.txt)
 cli_refuses(json-over-another-file "ends in .json" verify swinging-cube --levels 8 --out test-out/device

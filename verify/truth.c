@@ -144,16 +144,26 @@ static bool few_enough(const struct oracle_kind *kind, struct solver_error *erro
                        (int)ORACLE_PARAMETERS);
 }
 
+/* Whether the body itself starts from the oracle, or is driven by it: by what the scene says, not by what the oracle is
+ * told. */
+static bool leads(const struct solver_scene *scene)
+{
+    return strcmp(scene->initial_from, "oracle") == 0 || strcmp(scene->loads_from, "oracle") == 0;
+}
+
 static bool parameters(const struct solver_scene *scene, const struct teller *teller, struct verify_truth *truth,
                        struct solver_error *error)
 {
     for (const struct oracle_parameter *p = truth->kind->parameter; p->name != NULL; p++) {
         size_t i = truth->parameter_count++;
+        bool said = solver_scene_number(scene, p->name, &truth->value[i]);
         truth->told[i] = is_told(teller, p, &truth->value[i]);
-        if (!truth->told[i] && !solver_scene_number(scene, p->name, &truth->value[i])) {
+        if (!said && (!truth->told[i] || leads(scene))) {
             return solver_fail(error, SOLVER_BAD_INPUT,
-                               "%s: the oracle \"%s\" needs %s (%s) [%s]: give it under parameters or by oracle.%s",
-                               scene->path, truth->kind->name, p->name, p->help, p->unit, p->name);
+                               "%s: the oracle \"%s\" needs %s (%s) [%s]: give it under parameters%s%s", scene->path,
+                               truth->kind->name, p->name, p->help, p->unit,
+                               leads(scene) ? ", as the body starts from it or is driven by it" : " or by oracle.",
+                               leads(scene) ? "" : p->name);
         }
     }
     return true;
