@@ -198,6 +198,7 @@ static void apply_dot(struct solver_closure *of, const double *x, double *y, dou
                 of->loops->dot(x, y, of->partial + piece * of->loops->lanes, at.begin, at.end));
     sum_pieces(of, sum);
 }
+
 /* sign x / y of each component; 0 where a component has nothing left. */
 static void ratio(const struct solver_closure *of, double sign, const double x[4], const double y[4], double out[4])
 {
